@@ -51,10 +51,12 @@ def _memory(cell: Row, options) -> str:
         memory = "the starts were not seen to come together"
         if math.isfinite(periods):
             memory = f"the starts come together after about {_rounded(periods)} periods in {seas - apart_seas:.0f} seas"
-        return f"This scene carries no perturbation, so there is no exponent; {memory}."
+        return f"There is no exponent, because no run carries a perturbation for long enough; {memory}."
     if sign != "−":
         decides = "longer runs (--hours) or more seas (--seeds) decide"
-        if options.most_hours:
+        if options.one_sea:
+            decides = "longer runs (--hours) decide"
+        elif options.most_hours:
             decides = f"--most-hours above {options.most_hours:g} draws more seas"
         return f"It is not decided whether this sea makes the buoy forget how it began: {decides}."
     if options.starts < 2:
@@ -170,8 +172,8 @@ def _of_map(cells: Rows, of_all: int, options) -> Iterator[str]:
     )
     unknown = of_all - signs["−"] - signs["+"] - signs["open"]
     if unknown:
-        words += f"; of {unknown} there is no exponent, because no run carries a perturbation to its end"
-    if signs["open"]:
+        words += f"; of {unknown} there is no exponent, because no run carries a perturbation for long enough"
+    if signs["open"] and not options.one_sea:
         words += f"; --most-hours above {options.most_hours:g} draws more seas of those that are not decided"
     yield f"{words}."
     for name, quantity, in_print in (

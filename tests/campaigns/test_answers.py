@@ -2,6 +2,7 @@
 
 import math
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -43,6 +44,14 @@ def test_orbits_are_told_with_errors_and_those_known_badly_apart():
 
 
 OPTIONS = sea.Options(starts=4, slope=5.0, window=10, distance=0.05, no_regular=False, most_hours=12.0)
+
+
+def test_no_more_seas_are_advised_where_no_seed_draws_others():
+    options = replace(OPTIONS, one_sea=True, most_hours=0.0)
+    cell = SEA | {"sign": "open"}
+    for cells in ([cell], [cell, cell]):
+        words = "\n".join(of_sea(cells, options))
+        assert "not decided" in words and "--seeds" not in words and "--most-hours" not in words
 
 
 @pytest.mark.parametrize(
