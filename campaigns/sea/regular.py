@@ -55,8 +55,9 @@ def _breaking_m(scene) -> float:
 
 
 def one_set(order: Order) -> bool:
-    """Whether all states of the order have their regular waves in common: only the sea itself is varied."""
-    return all(key.key.startswith(SEA_KEYS) for key in order.options.grid.keys)
+    """Whether all states of the order have their regular waves in common: only the sea is varied, not its direction."""
+    headings = {scene.waves.heading_rad for scene in order.scenes}
+    return len(headings) == 1 and all(key.key.startswith(SEA_KEYS) for key in order.options.grid.keys)
 
 
 def regular_order(order: Order) -> Order | None:
@@ -66,7 +67,7 @@ def regular_order(order: Order) -> Order | None:
     """
     if not one_set(order):
         return None
-    heights_m = sorted({round(significant_height_m(scene), 4) for scene in order.scenes})
+    heights_m = sorted({float(f"{significant_height_m(scene):.5g}") for scene in order.scenes})
     scene = order.scenes[0]
     top_m = min(0.5 * DESIGN * heights_m[-1], BELOW_BREAKING * _breaking_m(scene))
     amplitudes = {float(f"{top_m * share:.6g}") for share in np.linspace(LOWEST, 1.0, HEIGHTS)}
