@@ -88,7 +88,7 @@ def _visits(cell: Row, options) -> str:
         return "Motions of regular waves were left out."
     share, forecast = cell["large_share"], cell["forecast_share"]
     if not math.isfinite(share):
-        return "The regular waves up to 1.86 H_s have one motion each, so there is no other motion to visit."
+        return "No regular wave up to 1.86 H_s has a small and a large motion, so there is no large motion to visit."
     words = f"It is in the large motion {_percent(share)} of the time"
     if share > 0.0:
         words += f", for {cell['large_mean_periods']:.0f} periods on average"
@@ -151,10 +151,11 @@ def _doubts(cell: Row, options) -> Iterator[str]:
         yield f"The exponent of finer runs {agrees}: {finer:+.3f} ± {finer_error:.3f} bits a peak period."
     scatter = cell["load_scatter"]
     if scatter > SCATTERED:
-        yield (
-            f"Runs in the same waves, from other starts or with finer steps, differ by {100 * scatter:.0f} % in their "
-            "largest tension; the interval of LOAD has only those from rest."
-        )
+        words = "Runs in the same waves, from other starts or with finer steps, differ by"
+        words += f" {100 * scatter:.0f} % in their largest tension"
+        if math.isfinite(cell["storm_maximum_N"]):
+            words += "; the interval of LOAD has only those from rest"
+        yield f"{words}."
     noise = cell["noise"]
     if noise * WELL_ABOVE > options.distance:
         yield (

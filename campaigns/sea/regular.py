@@ -79,7 +79,7 @@ def regular_order(order: Order) -> Order | None:
         "waves.above_still_water": scene.waves.above_still_water,
         "buoy.submergence": scene.buoy.submergence,  # whose default is another one in a sea
     }
-    key = replace(varied([KEY, "0", "1", "2"], []), values=tuple(sorted(amplitudes)))
+    key = varied([KEY], [], numbers=sorted(amplitudes))
     how = replace(order.how, out=order.how.out / FOLDER, report=False)
     waves = sweep.STUDY.order(
         how,
