@@ -204,4 +204,4 @@ def _rounded(periods: float) -> str:
 
 def _percent(share: float) -> str:
     """ "12 %" of a share of 0.12."""
-    return f"{100.0 * share:.2g} %"
+    return f"{typed(100.0 * share, 2)} %"

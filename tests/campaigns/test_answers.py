@@ -53,6 +53,12 @@ def test_nothing_is_said_of_an_interval_that_there_is_not():
     assert "differ by 20 %" in words and "interval" not in words and "one motion each" not in words
 
 
+def test_a_share_of_almost_all_is_in_plain_digits():
+    for share in (0.996, 1.0):
+        words = "\n".join(of_sea([SEA | {"large_share": share, "forecast_share": share}], OPTIONS))
+        assert words.count("100 %") == 2
+
+
 def test_no_more_seas_are_advised_where_no_seed_draws_others():
     options = replace(OPTIONS, one_sea=True, most_hours=0.0)
     cell = SEA | {"sign": "open"}
