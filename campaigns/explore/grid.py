@@ -130,7 +130,7 @@ def varied(
         return None
     symbol = declared.symbol
     if symbol in ("", "-", "–"):
-        symbol = key.rpartition(".")[2]
+        symbol = key.rpartition(".")[2].replace("_", " ")
     meaning = declared.meaning[:1].lower() + declared.meaning[1:].rstrip(".")
     column = Column(key, declared.unit.removesuffix("1"), symbol, meaning, digits)
     index = tuple(map(int, re.findall(r"\d+", places)))

@@ -40,7 +40,7 @@ def in_space(scene):
     If the buoy starts without a velocity across its waves, it gets the velocity SEED_MPS there. Perturbations are left
     out, because only a planar run can carry them. Raises SceneError if the scene is not allowed in three dimensions.
     """
-    heading = scene.waves.direction_rad
+    heading = scene.waves.heading_rad
     sine, cosine = math.sin(heading), math.cos(heading)
     vx, vy, vz = scene.start.buoy_velocity_mps
     changes = {"motion.dimensions": 3, **UNFOLLOWED}

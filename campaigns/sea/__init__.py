@@ -57,7 +57,7 @@ class Options(cli.Options):
     most_hours: float | None = cli.option(
         "H",
         "hours of all seas of a state, up to which more are run until its exponent is beyond three errors of 0 "
-        f"(default: {MOST_HOURS:g}, in a map 0)",
+        f"(default: {MOST_HOURS:g}, in a map and for waves that are not drawn 0)",
         cli.number("a finite number, at least 0", lambda hours: 0.0 <= hours < math.inf),
     )
     transient: int = cli.option(
@@ -78,14 +78,13 @@ class Options(cli.Options):
         "a look at a map in a sixth of the time: a line of nine nodes, one run from rest in each sea"
     )
     grid: Grid = field(default_factory=Grid)
+    one_sea: bool = False  # whether no seed draws other waves
 
     def read(self, faults: list[str]) -> None:
         """The keys with their values in the words of --vary; thresholds that contradict each other."""
         if self.screen:
             self.starts = 1
         self.grid = grid_of(self.vary or [], faults)
-        if self.most_hours is None:
-            self.most_hours = 0.0 if self.grid.keys else MOST_HOURS
         if not self.slack_share < self.snap_share:
             allowed = f"above --slack-share {self.slack_share:g}"
             faults.append(f"--snap-share: given {self.snap_share:g}; allowed: {allowed}")
@@ -142,14 +141,18 @@ def cases(order: Order) -> Iterator[Job]:
             allowed = f"a buoy in irregular waves, as with --set {HEIGHT}=2"
             order.tell(f"campaigns.sea: given {order.name!r} as it is; allowed: {allowed}")
             return
-        listed = _seed_key(scene) is None and scene.waves.significant_steepness is None
+        drawn = _seed_key(scene) is not None or (scene.waves.relative_width == 0.0 and options.grid.keys)
+        options.one_sea = not drawn
         if options.seeds is None:
-            options.seeds = 1 if listed else SEEDS
-        if listed and options.seeds > 1:
-            order.tell(f"--seeds: given {options.seeds} for listed waves; allowed: 1, or waves of a spectrum")
+            options.seeds = SEEDS if drawn else 1
+        if options.most_hours is None:
+            options.most_hours = MOST_HOURS if drawn and not options.grid.keys else 0.0
+        if options.one_sea:
+            for name, given, allowed in (("seeds", options.seeds, 1), ("most-hours", options.most_hours, 0)):
+                if given > allowed:
+                    order.tell(f"--{name}: given {given:g} for waves that are not drawn; allowed: {allowed}")
+        if order.faults:
             return
-        if listed:
-            options.most_hours = 0.0
         yield from _runs(order, place, range(1, options.seeds + 1), options.starts)
 
 

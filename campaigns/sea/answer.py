@@ -51,10 +51,12 @@ def _memory(cell: Row, options) -> str:
         memory = "the starts were not seen to come together"
         if math.isfinite(periods):
             memory = f"the starts come together after about {_rounded(periods)} periods in {seas - apart_seas:.0f} seas"
-        return f"This scene carries no perturbation, so there is no exponent; {memory}."
+        return f"There is no exponent, because no run carries a perturbation for long enough; {memory}."
     if sign != "−":
         decides = "longer runs (--hours) or more seas (--seeds) decide"
-        if options.most_hours:
+        if options.one_sea:
+            decides = "longer runs (--hours) decide"
+        elif options.most_hours:
             decides = f"--most-hours above {options.most_hours:g} draws more seas"
         return f"It is not decided whether this sea makes the buoy forget how it began: {decides}."
     if options.starts < 2:
@@ -86,7 +88,7 @@ def _visits(cell: Row, options) -> str:
         return "Motions of regular waves were left out."
     share, forecast = cell["large_share"], cell["forecast_share"]
     if not math.isfinite(share):
-        return "The regular waves up to 1.86 H_s have one motion each, so there is no other motion to visit."
+        return "No regular wave up to 1.86 H_s has a small and a large motion, so there is no large motion to visit."
     words = f"It is in the large motion {_percent(share)} of the time"
     if share > 0.0:
         words += f", for {cell['large_mean_periods']:.0f} periods on average"
@@ -149,10 +151,11 @@ def _doubts(cell: Row, options) -> Iterator[str]:
         yield f"The exponent of finer runs {agrees}: {finer:+.3f} ± {finer_error:.3f} bits a peak period."
     scatter = cell["load_scatter"]
     if scatter > SCATTERED:
-        yield (
-            f"Runs in the same waves, from other starts or with finer steps, differ by {100 * scatter:.0f} % in their "
-            "largest tension; the interval of LOAD has only those from rest."
-        )
+        words = "Runs in the same waves, from other starts or with finer steps, differ by"
+        words += f" {100 * scatter:.0f} % in their largest tension"
+        if math.isfinite(cell["storm_maximum_N"]):
+            words += "; the interval of LOAD has only those from rest"
+        yield f"{words}."
     noise = cell["noise"]
     if noise * WELL_ABOVE > options.distance:
         yield (
@@ -170,8 +173,8 @@ def _of_map(cells: Rows, of_all: int, options) -> Iterator[str]:
     )
     unknown = of_all - signs["−"] - signs["+"] - signs["open"]
     if unknown:
-        words += f"; of {unknown} there is no exponent, because no run carries a perturbation to its end"
-    if signs["open"]:
+        words += f"; of {unknown} there is no exponent, because no run carries a perturbation for long enough"
+    if signs["open"] and not options.one_sea:
         words += f"; --most-hours above {options.most_hours:g} draws more seas of those that are not decided"
     yield f"{words}."
     for name, quantity, in_print in (
@@ -201,4 +204,4 @@ def _rounded(periods: float) -> str:
 
 def _percent(share: float) -> str:
     """ "12 %" of a share of 0.12."""
-    return f"{100.0 * share:.2g} %"
+    return f"{typed(100.0 * share, 2)} %"

@@ -87,7 +87,7 @@ COLUMNS = (
     EMERGENCE,
     Column("regular_N", "N", "T_reg", "largest tension in the regular wave of the height H_s, of all its motions", 0),
     Column("regular_high_N", "N", "T_1.86", "largest tension in the regular wave of 1.86 H_s, of all its motions", 0),
-    Column("regular_high_motions", "", "motions high", "the same in the wave of 1.86 H_s", None, SHEET),
+    Column("regular_high_motions", "", "motions high", "tension of each motion in that of 1.86 H_s, kN", None, SHEET),
     Column("regular_motions", "", "motions", "largest tension of each motion in the regular wave, kN", None, SHEET),
     MESSAGE,
 )  # fmt: skip

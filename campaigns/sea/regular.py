@@ -45,17 +45,6 @@ def significant_height_m(scene) -> float:
     return float(4.0 * math.sqrt(np.sum(amplitudes_m**2) / 2.0))
 
 
-def heading_rad(scene) -> float:
-    """Mean direction of the waves of a sea, weighted by their energy; in a plane 0 or pi."""
-    from engine.physics.sea import components_of
-
-    _, amplitudes_m, _, directions_rad = components_of(scene)
-    along = np.sum(amplitudes_m**2 * np.cos(directions_rad))
-    if scene.motion.dimensions == 2:
-        return 0.0 if along >= 0.0 else math.pi
-    return math.atan2(np.sum(amplitudes_m**2 * np.sin(directions_rad)), along)
-
-
 def _breaking_m(scene) -> float:
     """Amplitude of the highest regular wave of the peak period."""
     from engine.physics.waves import breaking_steepness, wave_number
@@ -66,8 +55,9 @@ def _breaking_m(scene) -> float:
 
 
 def one_set(order: Order) -> bool:
-    """Whether all states of the order have their regular waves in common: only the sea itself is varied."""
-    return all(key.key.startswith(SEA_KEYS) for key in order.options.grid.keys)
+    """Whether all states of the order have their regular waves in common: only the sea is varied, not its direction."""
+    headings = {scene.waves.heading_rad for scene in order.scenes}
+    return len(headings) == 1 and all(key.key.startswith(SEA_KEYS) for key in order.options.grid.keys)
 
 
 def regular_order(order: Order) -> Order | None:
@@ -77,7 +67,7 @@ def regular_order(order: Order) -> Order | None:
     """
     if not one_set(order):
         return None
-    heights_m = sorted({round(significant_height_m(scene), 4) for scene in order.scenes})
+    heights_m = sorted({float(f"{significant_height_m(scene):.5g}") for scene in order.scenes})
     scene = order.scenes[0]
     top_m = min(0.5 * DESIGN * heights_m[-1], BELOW_BREAKING * _breaking_m(scene))
     amplitudes = {float(f"{top_m * share:.6g}") for share in np.linspace(LOWEST, 1.0, HEIGHTS)}
@@ -85,11 +75,11 @@ def regular_order(order: Order) -> Order | None:
         amplitudes |= {float(f"{0.5 * heights_m[0] * share:.6g}") for share in (1.0, SAME_ENERGY)}
     changes = {name: value for name, value in order.changes.items() if not name.startswith(SEA_KEYS)}
     changes |= {
-        "waves.direction_rad": heading_rad(scene),
+        "waves.direction_rad": scene.waves.heading_rad,
         "waves.above_still_water": scene.waves.above_still_water,
         "buoy.submergence": scene.buoy.submergence,  # whose default is another one in a sea
     }
-    key = replace(varied([KEY, "0", "1", "2"], []), values=tuple(sorted(amplitudes)))
+    key = varied([KEY], [], numbers=sorted(amplitudes))
     how = replace(order.how, out=order.how.out / FOLDER, report=False)
     waves = sweep.STUDY.order(
         how,

@@ -151,7 +151,7 @@ def _water(record, scene, place):
     if scene.water is not None:
         record["depth"] = scene.water.depth_m
     if wave is not None:
-        periods, amplitudes, phases, directions = sea.components_of(scene)
+        periods, amplitudes, phases, _ = sea.components_of(scene)
         several = len(periods) > 1
         # of several waves the peak period, for what is measured in wave lengths; a sea of one wave is a regular wave
         period_s = wave.period_s if several else float(periods[0])
@@ -166,11 +166,10 @@ def _water(record, scene, place):
             amplitude=amplitudes[0],
             above=above[wave.above_still_water],
         )
-        direction = float(directions[0])
         if codes.is_spatial(record):
-            record["dir_x"], record["dir_y"] = sea.direction_of(direction)
+            record["dir_x"], record["dir_y"] = sea.direction_of(wave.heading_rad)
         else:
-            record["direction"] = math.cos(direction)  # 1 or -1: `scene.rules` allow no other in a plane
+            record["direction"] = math.cos(wave.heading_rad)  # 1 or -1: `scene.rules` allow no other in a plane
         if several:
             groups = sea.groups_of(scene)
             _fill(record, amplitude=0.0, sea_n=len(groups), sea_at=place(groups))

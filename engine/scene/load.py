@@ -17,7 +17,7 @@ from pathlib import Path
 
 from engine.scene.faults import DEEPEST, TOO_DEEP, SceneError, ending_in, known_fields, shown, too_deep, unknown_key
 from engine.scene.models import Scene, build_scene
-from engine.scene.water_rules import HEIGHTS
+from engine.scene.water_rules import BESIDE, HEIGHTS
 
 _LONG_KEY = re.compile(rf"(?<![\w-])(?:[\w-]++\s*\.\s*){{{DEEPEST}}}")
 _SHIPPED = Path(__file__).parents[1] / "scenes"
@@ -37,9 +37,10 @@ def load_scene(name_or_path: str | Path, overrides: Mapping[str, object] | None 
     """A validated scene from a shipped name or a TOML file.
 
     name_or_path: one of `list_scenes()`, or the path of a scene file. overrides: dotted key -> value; a value of None
-    removes an optional key or section, a missing section is created, and of waves.steepness, amplitude_m, components
-    and jonswap the one given drops an inherited other. keywords: more of them, by the last word of a key where no other
-    key ends in it, as steepness=0.13.
+    removes an optional key or section, a missing section is created, and waves of another kind (`water_rules.HEIGHTS`)
+    take the place of those of the file. keywords: more of them, by the last word of a key where no other key ends in
+    it, as steepness=0.13. The file of waves.record is looked for beside the scene file, or in the working directory if
+    an override names it.
     Raises SceneError: every fault of the file and of the overrides at once; nothing of that name, unreadable, not TOML.
     """
     if not isinstance(overrides, Mapping | None):
@@ -52,7 +53,8 @@ def load_scene(name_or_path: str | Path, overrides: Mapping[str, object] | None 
             rest = f"beside {key} = {shown(changes[key])}; allowed: one of the two"
             raise SceneError(f"{word}: given {shown(value)} {rest}")
         changes[key] = value
-    return scene_from_toml(text, changes, source=str(name_or_path))
+    folder = Path() if "waves.record" in changes else Path(name_or_path).parent
+    return scene_from_toml(text, changes, str(name_or_path), folder)
 
 
 def _name_keywords() -> None:
@@ -69,14 +71,19 @@ def _name_keywords() -> None:
 _name_keywords()
 
 
-def scene_from_toml(text: str, overrides: Mapping[str, object] | None = None, source: str = "scene text") -> Scene:
-    """A validated scene from TOML text, as `Scene.to_toml` writes it; overrides and SceneError as for `load_scene`."""
+def scene_from_toml(
+    text: str, overrides: Mapping[str, object] | None = None, source: str = "scene text", folder: Path = Path()
+) -> Scene:
+    """A validated scene from TOML text, as `Scene.to_toml` writes it; overrides and SceneError as for `load_scene`.
+
+    folder: in which the path of waves.record begins.
+    """
     try:
         raw = _parsed(text, source)
     except tomllib.TOMLDecodeError as error:
         raise SceneError(f"{source}: not TOML: {error}{_faulty_line(text, str(error))}") from None
     raw, faults = _overridden(raw, overrides or {})
-    return build_scene(raw, faults)
+    return build_scene(raw, faults, folder)
 
 
 def _parsed(text: str, source: str) -> dict[str, object]:
@@ -187,4 +194,6 @@ def _drop_inherited_heights(raw: dict[str, object], overrides: Mapping[str, obje
     heights = {key: name for key, name in names.items() if name in HEIGHTS}
     if any(overrides[key] is not None for key in heights):
         inherited = set(HEIGHTS) - set(heights.values())
+        for name in tuple(inherited):
+            inherited.update(BESIDE.get(name, ()))
         raw["waves"] = {name: value for name, value in raw["waves"].items() if name not in inherited}

@@ -33,10 +33,10 @@ HIGHEST = 100.0  # m, beyond which an elevation is not in metres
 KEY = "waves.record"
 
 
-def with_measured_sea(raw: dict[str, object]) -> tuple[dict[str, object], list[str]]:
+def with_measured_sea(raw: dict[str, object], folder: Path) -> tuple[dict[str, object], list[str]]:
     """The raw scene with waves.components from waves.record, if it has one, and faults of the record.
 
-    A scene that has both was loaded before; its components are kept.
+    A scene that has both was loaded before; its components are kept. The path of the record begins in the folder.
     """
     waves = raw.get("waves")
     if not isinstance(waves, dict) or not isinstance(waves.get("record"), str) or waves.get("components"):
@@ -44,11 +44,12 @@ def with_measured_sea(raw: dict[str, object]) -> tuple[dict[str, object], list[s
     period_s = waves.get("period_s")
     if not isinstance(period_s, (int, float)) or not 0 < period_s < math.inf:
         return raw, []  # this fault is told by itself
+    path = str(folder / waves["record"])
     try:
-        values = _read(waves["record"])
+        values = _read(path)
     except SceneError as error:
         return raw, list(error.faults)
-    if faults := list(_unfit(waves["record"], *values, period_s)):
+    if faults := list(_unfit(path, *values, period_s)):
         return raw, faults
     return raw | {"waves": waves | {"components": _components(*values, period_s)}}, []
 

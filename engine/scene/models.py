@@ -9,6 +9,7 @@ that connect several keys are in `rules`.
 import hashlib
 import json
 import math
+from pathlib import Path
 from typing import Literal
 
 import tomli_w
@@ -191,16 +192,16 @@ def _floating(raw: dict[str, object]) -> dict[str, object]:
     return raw | {"buoy": buoy | {"submergence": "spherical-cap"}}
 
 
-def build_scene(raw: dict[str, object], extra_faults: tuple[str, ...] = ()) -> Scene:
+def build_scene(raw: dict[str, object], extra_faults: tuple[str, ...] = (), folder: Path = Path()) -> Scene:
     """A validated Scene from plain dicts and lists.
 
     raw: sections as in a scene file. extra_faults: faults that the caller has already found; they are reported together
-    with those of the scene. Raises SceneError with every fault of a single value, and with every contradiction between
-    values that are sound by themselves.
+    with those of the scene. folder: in which the path of waves.record begins. Raises SceneError with every fault of a
+    single value, and with every contradiction between values that are sound by themselves.
     """
     if too_deep(raw):
         raise SceneError((*extra_faults, f"scene: {TOO_DEEP}"))
-    raw, unfit = with_measured_sea(raw)
+    raw, unfit = with_measured_sea(raw, folder)
     raw = _floating(raw)
     extra_faults = (*extra_faults, *unfit)
     try:

@@ -297,7 +297,7 @@ class Waves(Section):
     component_count: Components = described("number of waves of a Gaussian spectrum", 64)
     seed: CountOrZero = described("seed of the frequencies and phases of a Gaussian spectrum", 0)
     record: Text | None = described(
-        "CSV file of a measured sea, columns time_s and elevation_m; it is read once and kept as components", None
+        "CSV file of a measured sea beside the scene file, columns time_s and elevation_m; kept as components", None
     )
     record_x_m: Number = described("place of the gauge of record", 0.0)
     components: WaveComponents | None = described(
@@ -315,6 +315,21 @@ class Waves(Section):
     def irregular(self) -> bool:
         """Whether this is a sea of several waves rather than one regular wave."""
         return irregular(vars(self))
+
+    @property
+    def heading_rad(self) -> float:
+        """Direction in which the waves go: that of all, or of listed waves the mean of their energy."""
+        if not self.components:
+            return self.direction_rad
+        along = across = energy = 0.0
+        for wave in self.components:
+            energy += wave.amplitude_m**2
+            along += wave.amplitude_m**2 * math.cos(wave.direction_rad)
+            across += wave.amplitude_m**2 * math.sin(wave.direction_rad)
+        if energy == 0.0:
+            return 0.0
+        # without the rounding of sines, which would turn the plane of waves that stand along x
+        return math.atan2(round(across / energy, 12), round(along / energy, 12))
 
 
 class UniformCurrent(Section):

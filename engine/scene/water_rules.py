@@ -11,6 +11,8 @@ from engine.scene.sound import Facts, Sound
 _DRAGS = "tether.drag_normal", "tether.drag_tangential", "buoy.drag"
 # heights of the waves: a scene has one of these
 HEIGHTS = ("steepness", "amplitude_m", "significant_steepness", "record", "components", "jonswap")
+# and keys that only one of these has a use for
+BESIDE = {"significant_steepness": ("relative_width", "component_count", "seed"), "record": ("record_x_m",)}
 STEEPEST = 1.0  # k H_s/2 beyond which no sea can be meant
 PLANE = "in a plane (motion.dimensions = 2)"
 _ALONG = f"0 or pi {PLANE}"

@@ -55,7 +55,7 @@ def sample_count(duration_s: float, step_s: float) -> int:
 
 def heading_of(scene: Scene) -> float:
     """Direction (rad) of the waves; 0 without waves."""
-    return 0.0 if scene.waves is None else float(scene.waves.direction_rad)
+    return 0.0 if scene.waves is None else float(scene.waves.heading_rad)
 
 
 def along_waves(heading: float, x: np.ndarray, y: np.ndarray) -> np.ndarray:

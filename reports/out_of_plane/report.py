@@ -79,18 +79,19 @@ def report(directory: Path) -> Report:
 
 
 def statement_items(study: Study) -> Items:
-    """The verdicts on the paper's statements and on planar runs; buoy and rope in the two runs of figure 20."""
+    """The verdicts on the paper's statements and on planar runs; buoy and rope after the usual push."""
     judged, pairs = read_statements(study.folder.directory), any_rows(study.folder.directory / _PAIRS)
-    sentences = [f"The paper's statements on figure 20: {verdict_counts(judged)}."]
+    if judged:
+        yield Heading("The paper's statements on figure 20")
+        yield Bullets([f"The paper's statements on figure 20: {verdict_counts(judged)}."])
+        yield statements_table(judged, "The paper's statements on figure 20. From `statements.csv`.")
     if pairs:
-        sentences.append(_agreement(pairs))
-    yield Heading("The paper's statements on figure 20")
-    yield Bullets(sentences)
-    yield statements_table(judged, "The paper's statements on figure 20. From `statements.csv`.")
+        yield Bullets([_agreement(pairs)])
     names = columns_of_bodies(
         "motion", "rate_bits_per_period", "bursts", "burst_median_m", "rise_nats", "rise_periods", "lateral_max_m"
     )
-    yield study.table(["steepness", "depth_m", "seed_mps", *names], study.over(), "The two runs of figure 20.")
+    caption = "Both waves after the usual push, as in figure 20 of the paper."
+    yield study.table(["steepness", "depth_m", "seed_mps", *names], study.over(), caption)
 
 
 def _agreement(pairs: list[dict[str, str]]) -> str:
@@ -112,7 +113,7 @@ def figure_20(study: Study) -> Items:
     """Figure 20: lateral motion of buoy and rope for both waves."""
     loaded = study.loaded(study.over())
     if not loaded:
-        yield Text("Neither of the two runs of figure 20 ended as asked, so it cannot be drawn.")
+        yield Text("In neither wave did the run with the usual push end as asked, so there is no figure of it.")
         return
     yield Text(
         "At t = 0 the buoy gets a small velocity across the waves; everything else is as in a planar run. The paper "
@@ -125,7 +126,7 @@ def figure_20(study: Study) -> Items:
         panels.append((labels[body], histories))
     first_run = loaded[0][0]
     caption = (
-        f"Lateral motion of the buoy (fig. 20 of the paper) and of the rope after a push of "
+        f"Lateral motion of the buoy (as fig. 20 of the paper) and of the rope after a push of "
         f"{number(first_run['seed_mps'])} m/s across the waves, H = {number(first_run['depth_m'])} m. Thick: the "
         "largest value in each wave period; thin: every sample; dotted: half the range of the buoy in the plane."
     )
@@ -156,7 +157,7 @@ def growth_items(study: Study) -> Items:
             across.append(name)
     for body in BODIES:
         names = ["steepness", "depth_m", *(name for name in across if name.startswith(body))]
-        caption = f"Lateral motion of the {body}, with the stiffness, grid and push of figure 20."
+        caption = f"Lateral motion of the {body}, with the usual stiffness, grid and push."
         yield study.table(names, study.over(depth_m=None), caption)
     planar = study.over(depth_m=None, dimensions=2, seed_mps=0.0, seed_direction="")
     caption = "Infinitesimal perturbation across the plane of planar runs, beside the fitted rate of the buoy above."

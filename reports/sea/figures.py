@@ -32,8 +32,8 @@ _BINS = 2500
 _SHOWN = 120  # peak periods of the picture, or 1.6 times the time until the starts are together
 _PICTURE = (
     "Sea 1. Top: distance of the buoy from its anchor, from every start. Middle: the waves at the anchor with their "
-    "envelope, and the amplitudes at which motions of regular waves end. Bottom: tension of the run from rest; shaded: "
-    "slack; triangles: snaps."
+    "envelope, and where the small and the large motion of regular waves end, if there are both. Bottom: tension of "
+    "the run from rest; shaded: slack; triangles: snaps."
 )
 _RESPONSES = (
     "Every sea over the whole record. Top: how many different responses its starts have. Bottom: the largest distance "

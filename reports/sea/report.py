@@ -82,7 +82,7 @@ def _numbers(cells: Folder) -> Table:
     for name in names:
         column = cells.columns[name]
         lines.append([column.meaning, printed[name](row), column.unit or EMPTY])
-    return Table(heads("quantity", ("value", ""), "unit"), lines, "Of all seas of this state (`cells/table.csv`).")
+    return Table(heads("quantity", "value", "unit"), lines, "Of all seas of this state (`cells/table.csv`).")
 
 
 def _pictures(folder: Folder, cells: Folder) -> Items:

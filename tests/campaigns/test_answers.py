@@ -2,6 +2,7 @@
 
 import math
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -43,6 +44,27 @@ def test_orbits_are_told_with_errors_and_those_known_badly_apart():
 
 
 OPTIONS = sea.Options(starts=4, slope=5.0, window=10, distance=0.05, no_regular=False, most_hours=12.0)
+
+
+def test_nothing_is_said_of_an_interval_that_there_is_not():
+    """Without a three-hour maximum; nor of one motion each, where the motions of a wave pull about alike."""
+    cell = SEA | {"storm_maximum_N": math.nan, "storm_reason": "few blocks", "load_scatter": 0.2}
+    words = "\n".join(of_sea([cell | {"large_share": math.nan}], OPTIONS))
+    assert "differ by 20 %" in words and "interval" not in words and "one motion each" not in words
+
+
+def test_a_share_of_almost_all_is_in_plain_digits():
+    for share in (0.996, 1.0):
+        words = "\n".join(of_sea([SEA | {"large_share": share, "forecast_share": share}], OPTIONS))
+        assert words.count("100 %") == 2
+
+
+def test_no_more_seas_are_advised_where_no_seed_draws_others():
+    options = replace(OPTIONS, one_sea=True, most_hours=0.0)
+    cell = SEA | {"sign": "open"}
+    for cells in ([cell], [cell, cell]):
+        words = "\n".join(of_sea(cells, options))
+        assert "not decided" in words and "--seeds" not in words and "--most-hours" not in words
 
 
 @pytest.mark.parametrize(

@@ -14,6 +14,7 @@ from campaigns.machinery.folder import trajectory_path
 from campaigns.out_of_plane.pairs import agreement
 from campaigns.out_of_plane.rows import COLUMNS, bows, offplane_row
 from engine import Trajectory, load_scene
+from engine.physics.waves import wave_number
 from engine.trajectory import Profiles
 from reports.out_of_plane.report import report
 from reports.out_of_plane.runs import read_study
@@ -70,6 +71,30 @@ def test_a_rope_of_another_length_stays_in_its_depth():
     order = order_of(out_of_plane, "--set", "tether.length_m=39", "water.depth_m=40", "tether.bending_stiffness_Nm2=2")
     assert {case.labels["depth_m"] for case in order.cases} == {40.0}
     assert {case.labels["bending_stiffness_Nm2"] for case in order.cases} == {0.5, 2.0, 20.0}
+
+
+KICK_MPS = 0.5, 0.0, 0.2
+OWN = {"waves.amplitude_m": 0.4, "waves.period_s": 6.0, "tether.length_m": 19.0, "start.buoy_velocity_mps": KICK_MPS}
+
+
+def test_an_own_scene_runs_in_its_own_wave_and_from_its_own_kick(tmp_path):
+    """Beside a lower wave in the ratio of the paper's two. A push adds to the kick, in a plane there is none."""
+    (tmp_path / "own.toml").write_text(load_scene("tethered_buoy", OWN).to_toml())
+    order = order_of(out_of_plane, "--scene", tmp_path / "own.toml")
+    heights_m = set()
+    for case in order.cases:
+        waves, row = case.scene.waves, case.labels
+        heights_m.add(waves.steepness / wave_number(waves.period_s, case.scene.water.depth_m, 9.81))
+        pushed = np.subtract(case.scene.start.buoy_velocity_mps, KICK_MPS)
+        assert np.linalg.norm(pushed) == pytest.approx(row["seed_mps"], rel=1e-6) and pushed[2] == 0.0
+    assert sorted(heights_m) == pytest.approx([0.4 * 0.016 / 0.13, 0.4])
+
+
+def test_a_sentence_of_the_paper_is_judged_in_its_waves_only(tmp_path):
+    place = tmp_path / "out"
+    assert made(place, 12) and len(rows_of(place, "statements.csv")) > 3
+    assert ran(out_of_plane, place, "--periods", 12, "--set", "waves.steepness=0.1", simulate=SpaceEngine())
+    assert not rows_of(place, "statements.csv") and report(place)
 
 
 def test_rows_say_decay_with_its_rate_and_bursts_with_their_size(rows):
@@ -165,9 +190,11 @@ def test_a_scene_in_space_gets_a_push_only_where_it_has_none():
     pushed = {"motion.dimensions": 3, "start.buoy_velocity_mps": [0.1, 1e-7, 0.2]}
     unchanged, added = in_space(load_scene("tethered_buoy", pushed))
     assert not added and unchanged.start.buoy_velocity_mps == (0.1, 1e-7, 0.2)
-    turned = {"motion.dimensions": 3, "waves.direction_rad": math.pi / 2}
-    across, added = in_space(load_scene("tethered_buoy", turned))
-    assert added and across.start.buoy_velocity_mps == pytest.approx((-SEED_MPS, 0.0, 0.0), abs=1e-20)
+    along_y = {"direction_rad": math.pi / 2}
+    listed = {"period_s": 5.0, "components": [along_y | {"period_s": 5.0, "amplitude_m": 0.3}]}
+    for waves in ({"waves.direction_rad": math.pi / 2}, {"waves": listed}):
+        across, added = in_space(load_scene("tethered_buoy", {"motion.dimensions": 3, **waves}))
+        assert added and across.start.buoy_velocity_mps == pytest.approx((-SEED_MPS, 0.0, 0.0), abs=1e-20)
 
 
 @pytest.mark.parametrize("heading, x, y", [(0.0, 2.0, 0.0), (math.pi, -2.0, 0.0), (math.pi / 2, 0.0, 2.0)])

@@ -51,6 +51,25 @@ def test_regular_waves_go_where_most_of_the_sea_goes(tmp_path, dimensions, headi
         assert np.exp(1j * case.scene.waves.direction_rad) == pytest.approx(np.exp(1j * heading))
 
 
+def test_seas_that_go_elsewhere_have_no_regular_waves_in_common(tmp_path):
+    waves = "waves.components=[{period_s=5,amplitude_m=0.3,direction_rad=0},{period_s=6,amplitude_m=0.2}]"
+    words = "--set", waves, "--no-regular", "--hours", 0.1, "--out", tmp_path / "new"
+    key = "waves.components[0]."
+    assert regular_order(order_of(sea, *words, "--vary", f"{key}amplitude_m", 0.3, 0.4, 2)) is not None
+    assert regular_order(order_of(sea, *words, "--vary", f"{key}direction_rad", 0, np.pi, 2)) is None
+
+
+@pytest.mark.parametrize("height_m", [1.2, 1.2e-3, 1.6e-4])
+def test_among_the_regular_waves_is_that_of_the_significant_height_on_any_scale(tmp_path, height_m):
+    changes = "--set", f"{sea.HEIGHT}={height_m}", "--seeds", 1, "--hours", 0.1
+    regular = regular_order(order_of(sea, *changes, "--out", tmp_path / "new"))
+    amplitudes_m = np.array([case.scene.waves.amplitude_m for case in regular.cases])
+    assert np.abs(amplitudes_m / (0.5 * height_m) - 1.0).min() < 1e-4
+    (column,) = regular.options.grid.columns
+    cells = {column.cell({column.name: amplitude_m}) for amplitude_m in amplitudes_m}
+    assert len(cells) == len(set(amplitudes_m))  # each in print differs
+
+
 @pytest.mark.parametrize(
     ("hours", "most_hours", "carrying", "finer"),
     [

@@ -21,6 +21,7 @@ import pytest
 from campaigns import orbits, regime_map, sea
 from campaigns import sweep as sweep_command
 from campaigns.explore import rows as of_a_buoy
+from campaigns.explore.grid import varied
 from campaigns.machinery import Summary
 from campaigns.sweep.seas import statistics
 from engine import Trajectory, load_scene, simulate
@@ -107,14 +108,20 @@ def test_the_waves_of_a_row_are_those_over_the_anchor():
 
 
 @pytest.mark.parametrize(
-    ("varied", "fixed"),
+    ("key", "fixed"),
     [
         ("waves.relative_width", "waves.significant_steepness=0.1"),
         ("waves.significant_steepness", "waves.relative_width=0.1"),
     ],
 )
-def test_a_key_that_another_needs_can_be_varied(varied, fixed):
-    assert len(cases_of("--vary", varied, 0.05, 0.1, 2, "--set", fixed, *SHORT)) == 2
+def test_a_key_that_another_needs_can_be_varied(key, fixed):
+    assert len(cases_of("--vary", key, 0.05, 0.1, 2, "--set", fixed, *SHORT)) == 2
+
+
+@pytest.mark.parametrize("key", ["waves.relative_width", "start.buoy_velocity_mps[0]"])
+def test_a_key_without_a_symbol_is_its_own_name_in_print(key):
+    column = varied([key, "0", "0.1", "2"], []).column
+    assert column.head == key.rpartition(".")[2].replace("_", " ") and "$" not in column.label
 
 
 def test_a_sweep_of_steepness_has_the_rows_of_the_buoy_sweep(tmp_path, sweep):

@@ -134,9 +134,23 @@ def test_two_halves_of_a_wave_are_the_wave(capped, angle):
     expected = columns_of(amplitude_m=0.6, direction_rad=angle)
     field = columns_of(components=[half, half])
     single = columns_of(components=[half | {"amplitude_m": 0.6}])
-    for name in ("x_m", "z_m"):
+    for name in ("x_m", "z_m", "angle_rad"):
         assert np.abs(field[name] - expected[name]).max() < 1e-9
         assert np.array_equal(single[name], expected[name])
+
+
+def test_the_plane_of_listed_waves_is_that_of_most_of_their_energy():
+    """Waves to both sides of y, and one against them: angle and distance are those of a wave along y, in any order."""
+    waves = []
+    for amplitude_m, towards in ((0.2, 0.5 * np.pi - 0.4), (0.2, 0.5 * np.pi + 0.4), (0.1, -0.5 * np.pi)):
+        waves.append({"period_s": 5.0, "amplitude_m": amplitude_m, "direction_rad": towards})
+    kick = {"waves.jonswap": None, "start.buoy_velocity_mps": [0.3, 0.1, 0.0]}
+    for components in (waves, waves[::-1]):
+        columns = simulate(sea(0, 3, **kick, **{"waves.components": components}), periods=2).columns
+        across_m = np.abs(columns["x_m"])
+        assert np.abs(columns["angle_rad"] - np.arctan2(columns["y_m"], columns["z_m"])).max() < 1e-9
+        assert (columns["offplane_m"] >= across_m - 1e-9).all()
+        assert columns["offplane_m"].max() == pytest.approx(across_m.max(), rel=0.01)
 
 
 def jonswap(seed):

@@ -4,6 +4,7 @@ cannot be one is refused with its key and the reason.
 
 import numpy as np
 import pytest
+import tomli_w
 
 from engine import load_scene
 from engine.physics.sea import elevation_m
@@ -13,6 +14,7 @@ KEYS = {"tether.nodes": 11, "water.depth_m": 22.5}
 TIME_S = 7.0 + 0.25 * np.arange(2400)
 KNOWN = load_scene("tethered_buoy", KEYS | {"waves.jonswap": {"significant_height_m": 1.0, "seed": 3}})
 GAUGE_M = 3.0
+ELEVATION = elevation_m(KNOWN, TIME_S, GAUGE_M)
 
 
 def written(path, time_s, elevation):
@@ -24,7 +26,7 @@ def written(path, time_s, elevation):
 def test_the_sea_is_the_record_at_its_gauge_and_travels_on(tmp_path):
     """But for the ends, because 600 s are no period of the known sea."""
     path = tmp_path / "gauge.csv"
-    scene = load_scene("tethered_buoy", written(path, TIME_S, elevation_m(KNOWN, TIME_S, GAUGE_M)))
+    scene = load_scene("tethered_buoy", written(path, TIME_S, ELEVATION))
     for x, ends in ((GAUGE_M, 40), (GAUGE_M + 10.0, 200)):
         there = elevation_m(KNOWN, TIME_S, x)
         difference = (elevation_m(scene, TIME_S, x) - there)[ends:-ends]
@@ -33,7 +35,22 @@ def test_the_sea_is_the_record_at_its_gauge_and_travels_on(tmp_path):
     assert scene_from_toml(scene.to_toml()) == scene
 
 
-ELEVATION = elevation_m(KNOWN, TIME_S, GAUGE_M)
+def test_a_record_lies_beside_the_scene_file_or_where_an_override_says(tmp_path, monkeypatch):
+    """The place is not in the key of the scene: a folder may be moved, and its runs stay."""
+    waves = {"period_s": 5.0, "record": "gauge.csv", "record_x_m": GAUGE_M}
+    text, keys = tomli_w.dumps(KNOWN.as_dict() | {"waves": waves}), set()
+    for name in ("here", "there"):
+        folder = tmp_path / name
+        folder.mkdir()
+        written(folder / "gauge.csv", TIME_S, ELEVATION)
+        (folder / "scene.toml").write_text(text)
+        keys.add(load_scene(folder / "scene.toml").key())
+    monkeypatch.chdir(tmp_path / "here")
+    written(tmp_path / "there" / "gauge.csv", TIME_S, 0.5 * ELEVATION)
+    keys.add(load_scene(tmp_path / "there" / "scene.toml", {"waves.record": "gauge.csv"}).key())
+    assert len(keys) == 1
+
+
 BROKEN = {
     "short": (TIME_S[:100], ELEVATION[:100], "at least 20 periods"),
     "gap": (np.delete(TIME_S, slice(50, 60)), np.delete(ELEVATION, slice(50, 60)), "from 19.25 to 22 s is a gap"),

@@ -105,6 +105,17 @@ def test_what_says_how_high_the_waves_are_takes_the_place_of_what_was_inherited(
     assert back.key() == load_scene("tethered_buoy", {"waves.steepness": 0.2}).key()
 
 
+@pytest.mark.parametrize("inherited", [
+    {"waves.significant_steepness": 0.1, "waves.relative_width": 0.05, "waves.seed": 3, "waves.component_count": 8},
+    {"waves.record": "gauge.csv", "waves.record_x_m": 3.0, "waves.components": HEIGHTS["components"]},
+])  # fmt: skip
+@pytest.mark.parametrize("name", ["amplitude_m", "jonswap.significant_height_m"])
+def test_what_only_the_replaced_sea_had_a_use_for_goes_with_it(name, inherited):
+    text = load_scene("tethered_buoy", inherited).to_toml()
+    replaced = {f"waves.{name}": HEIGHTS[name], "waves.above_still_water": "zero"}
+    assert scene_from_toml(text, replaced) == load_scene("tethered_buoy", replaced)
+
+
 @pytest.mark.parametrize("name", ["components", "jonswap.significant_height_m"])
 def test_no_waves_are_above_still_water_in_an_irregular_sea_unless_the_scene_says_so(name):
     sea, key = {f"waves.{name}": HEIGHTS[name]}, "waves.above_still_water"
