@@ -11,10 +11,11 @@ orbit, begun at any of its points, lies on the last chord.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
-from analysis.orbits.events import ACCURACY, NEAR_ORBITS, Event, Place, events_between
+from analysis.orbits.events import ACCURACY, FACTORS, NEAR_ORBITS, Event, Place, events_between, test_of
 from analysis.orbits.finding import Orbit, described, real_span, solved_near
 from analysis.orbits.maps import NoImage, OrbitMap, shoot, slopes_of
 from analysis.orbits.spaces import Space
@@ -124,6 +125,7 @@ class _Follower:
     def one_way(self, first, step):
         """Places after the first; events between them; why they end; whether they come back to the first."""
         places, events, closed, reason = [first], [], False, f"followed over {self.limit} orbits"
+        before, short = [], step  # events that were known before each step; steps are looked into that are longer
         while len(places) <= self.limit:
             last, closing = places[-1], None
             end, limited = self._limit(last, step)
@@ -135,10 +137,17 @@ class _Follower:
                 if _meets_half(self.system, last.orbit.points, place.orbit.points):
                     reason = f"meets the orbit of period {last.orbit.period // 2}"
                     break
+                turn, length = self._turn(*places[-2:], place)
+                if length > short:
+                    step = 0.5 * length
+                    if turn < 0.0:
+                        places.pop()
+                        del events[before.pop() :]
+                    continue
                 if len(places) > 2:
                     closing = _come_back(self.system, first, last, place)
                 place = closing or place
-                events += events_between(self.system, last, place, self.count, self.accuracy)
+                between = events_between(self.system, last, place, self.count, self.accuracy)
             except ArithmeticError as why:
                 step = 0.5 * limited
                 if step < self.least:
@@ -146,6 +155,8 @@ class _Follower:
                     break
                 continue
             places.append(place)
+            before.append(len(events))
+            events += between
             if closing:
                 closed = True
                 reason = "comes back to its beginning"
@@ -184,6 +195,27 @@ class _Follower:
         if tangent @ np.append(change[0], rate) < STRAIGHT:
             raise NoImage("the branch turns too sharply: the map is not smooth there, or steps scatter the orbit")
         return Place(orbit, change, rate, slopes), solved.iterations <= FEW
+
+    def _turn(self, *places):
+        """Where a test function seems to be zero twice between neighbours of three places, by the parabola through its
+        values there: below 0 between the first two, above 0 between the last two; and how far these are apart. 0, 0: it
+        does not."""
+        if len(places) < 3:
+            return 0.0, 0.0
+        steps = []
+        for place, following in pairwise(places):
+            way = following.orbit.points[0] - place.orbit.points[0]
+            rate = (following.orbit.parameter - place.orbit.parameter) / self.system.parameter_size
+            steps.append(self.system.length(way, rate))
+        for factors in FACTORS.values():
+            values = [test_of(factors, place.orbit) for place in places]
+            bend, slope, value = np.polyfit([-steps[0], 0.0, steps[1]], values, 2)
+            alike = min(value * values[0], value * values[2]) > 0.0
+            if alike and 0.0 < 4.0 * bend * value < slope**2:
+                turn = -0.5 * slope / bend
+                if -steps[0] < turn < steps[1]:
+                    return turn, steps[int(turn > 0.0)]
+        return 0.0, 0.0
 
 
 def tangent_of(system, space, slopes, direction):

@@ -25,7 +25,7 @@ import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
 from analysis.orbits.branches import FEW, GROW, NEAR, ON_CHORD, STRAIGHT
-from analysis.orbits.events import FACTORS, NEAR_ORBITS, angle_of
+from analysis.orbits.events import FACTORS, NEAR_ORBITS, angle_of, test_of
 from analysis.orbits.finding import Orbit, corrected, described, real_span
 from analysis.orbits.maps import NoImage, NotSolved, OrbitMap, shoot, slopes_of
 from analysis.orbits.spaces import Space
@@ -167,7 +167,7 @@ class _Follower:
 
     def test(self, orbit):
         """g: with the multipliers that are known."""
-        return float(np.prod(FACTORS[self.kind](orbit.multipliers)).real)
+        return test_of(FACTORS[self.kind], orbit)
 
     def place(self, orbit):
         """(N, n + 2) of an orbit: its points, each with the parameters in their sizes."""
