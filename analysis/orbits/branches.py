@@ -5,7 +5,8 @@
                takes those of the predicted orbit first, and then those of the orbit
     accept     where t turns by less than 26 degrees and the correction is shorter than half of h; else h is halved
 
-h grows by half after three Newton steps or fewer. A branch has come back to its beginning, an island, where its first
+h grows by half after three Newton steps or fewer. Where parameter_size is small, a fold is a corner: if no h succeeds,
+a larger one serves until h is the first one again. A branch has come back to its beginning, an island, where its first
 orbit, begun at any of its points, lies on the last chord.
 """
 
@@ -17,13 +18,14 @@ import numpy as np
 
 from analysis.orbits.events import ACCURACY, FACTORS, NEAR_ORBITS, Event, Place, events_between, test_of
 from analysis.orbits.finding import Orbit, described, real_span, solved_near
-from analysis.orbits.maps import NoImage, OrbitMap, shoot, slopes_of
+from analysis.orbits.maps import NoImage, NotSolved, OrbitMap, shoot, slopes_of
 from analysis.orbits.spaces import Space
 from analysis.sampling import checked_positive
 
 STRAIGHT = 0.9  # least cosine between tangents of neighbours
 NEAR = 0.5  # longest correction, in steps
 GROW, FEW = 1.5, 3
+WIDER, WIDEST = 4.0, 16.0  # sizes of the parameter where no step succeeds, in its own size
 ON_CHORD = 0.2  # distance from a chord, in its lengths
 NOT_FOLLOWED = "it was not followed that way"
 
@@ -126,14 +128,15 @@ class _Follower:
         """Places after the first; events between them; why they end; whether they come back to the first."""
         places, events, closed, reason = [first], [], False, f"followed over {self.limit} orbits"
         before, short = [], step  # events that were known before each step; steps are looked into that are longer
+        follower, wide = self, 1.0
         while len(places) <= self.limit:
             last, closing = places[-1], None
-            end, limited = self._limit(last, step)
+            end, limited = follower._limit(last, step)
             if limited == 0.0:
                 reason = f"reaches the end of the range, {end:g}"
                 break
             try:
-                place, easy = self._next(last, limited, end)
+                place, easy = follower._next(last, limited, end)
                 if _meets_half(self.system, last.orbit.points, place.orbit.points):
                     reason = f"meets the orbit of period {last.orbit.period // 2}"
                     break
@@ -147,10 +150,14 @@ class _Follower:
                 if len(places) > 2:
                     closing = _come_back(self.system, first, last, place)
                 place = closing or place
-                between = events_between(self.system, last, place, self.count, self.accuracy)
+                between = events_between(follower.system, last, place, self.count, self.accuracy)
             except ArithmeticError as why:
                 step = 0.5 * limited
-                if step < self.least:
+                if step < self.least and isinstance(why, NotSolved) and wide < WIDEST:
+                    wide *= WIDER
+                    follower, places[-1] = follower._widened(last, WIDER)
+                    step = short
+                elif step < self.least:
                     reason = f"at {last.orbit.parameter:.6g} no step above {self.least:g} succeeds: {why}"
                     break
                 continue
@@ -166,7 +173,17 @@ class _Follower:
                 break
             if easy:
                 step = min(step * GROW, self.longest)
+            if wide > 1.0 and step > short:
+                follower, places[-1] = follower._widened(place, 1.0 / wide)
+                wide, step = 1.0, short
         return places[1:], events, reason, closed
+
+    def _widened(self, place, by):
+        """The same with a parameter whose size is that many times as large, and a place with the tangent of that."""
+        system = replace(self.system, parameter_size=by * self.system.parameter_size)
+        length = system.length(place.change[0], place.rate / by)
+        change, rate = place.change / length, place.rate / by / length
+        return replace(self, system=system), place._replace(change=change, rate=rate, slopes=by * place.slopes)
 
     def _limit(self, place, step):
         """The end of the range that a step would reach, or None; and the step, cut there."""
@@ -186,14 +203,14 @@ class _Follower:
         newton = NEAR_ORBITS._replace(tolerance=self.system.tolerance)
         solved = solved_near(self.system, points, parameter, newton, across, directions, place.slopes)
         if self.system.length(solved.points[0] - points[0], (solved.parameter - parameter) / size) > NEAR * step:
-            raise NoImage("the branch turns too sharply: the map is not smooth there, or steps scatter the orbit")
+            raise NotSolved("the branch turns too sharply: the map is not smooth there, or steps scatter the orbit")
         if not self.low <= solved.parameter <= self.high:
             raise NoImage("the orbit found is out of the range")
         orbit, space = described(solved, self.count)
         slopes = slopes_of(solved.maps, solved.shots, solved.points, solved.parameter)
         change, rate = tangent_of(self.system, space, slopes, tangent)
         if tangent @ np.append(change[0], rate) < STRAIGHT:
-            raise NoImage("the branch turns too sharply: the map is not smooth there, or steps scatter the orbit")
+            raise NotSolved("the branch turns too sharply: the map is not smooth there, or steps scatter the orbit")
         return Place(orbit, change, rate, slopes), solved.iterations <= FEW
 
     def _turn(self, *places):

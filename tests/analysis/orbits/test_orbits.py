@@ -185,6 +185,17 @@ def test_two_flips_between_neighbours_of_a_branch_are_both_found(middle):
     assert not all(orbit.stable for orbit in branch.orbits)
 
 
+def test_a_fold_is_passed_in_a_range_so_narrow_that_it_is_a_corner():
+    """Beside the fold of Henon's map x is its distance in a to the power 1/2: 0.007 over a range that counts as 1."""
+    fold = -(0.7**2) / 4
+    system = OrbitMap(henon, parameter_size=5e-5)
+    first = find_orbit(system, [-0.33, -0.1], fold + 2e-5)
+    branch = follow_branch(system, first, fold - 5e-5, fold + 5e-5, least=2e-3)
+    assert [event.kind for event in branch.events] == ["fold"]
+    assert branch.events[0].parameter == closely(fold)
+    assert branch.ends == (f"reaches the end of the range, {fold + 5e-5:g}",) * 2
+
+
 def test_an_island_closes_with_its_two_folds():
     system = OrbitMap(island)
     branch = follow_branch(system, find_orbit(system, [1.4], 2.0), 0.0, 4.0)
