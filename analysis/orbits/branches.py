@@ -5,24 +5,27 @@
                takes those of the predicted orbit first, and then those of the orbit
     accept     where t turns by less than 26 degrees and the correction is shorter than half of h; else h is halved
 
-h grows by half after three Newton steps or fewer. A branch has come back to its beginning, an island, where its first
+h grows by half after three Newton steps or fewer. Where parameter_size is small, a fold is a corner: if no h succeeds,
+a larger one serves until h is the first one again. A branch has come back to its beginning, an island, where its first
 orbit, begun at any of its points, lies on the last chord.
 """
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
-from analysis.orbits.events import ACCURACY, NEAR_ORBITS, Event, Place, events_between
+from analysis.orbits.events import ACCURACY, FACTORS, NEAR_ORBITS, Event, Place, events_between, test_of
 from analysis.orbits.finding import Orbit, described, real_span, solved_near
-from analysis.orbits.maps import NoImage, OrbitMap, shoot, slopes_of
+from analysis.orbits.maps import NoImage, NotSolved, OrbitMap, shoot, slopes_of
 from analysis.orbits.spaces import Space
 from analysis.sampling import checked_positive
 
 STRAIGHT = 0.9  # least cosine between tangents of neighbours
 NEAR = 0.5  # longest correction, in steps
 GROW, FEW = 1.5, 3
+WIDER, WIDEST = 4.0, 16.0  # sizes of the parameter where no step succeeds, in its own size
 ON_CHORD = 0.2  # distance from a chord, in its lengths
 NOT_FOLLOWED = "it was not followed that way"
 
@@ -124,28 +127,43 @@ class _Follower:
     def one_way(self, first, step):
         """Places after the first; events between them; why they end; whether they come back to the first."""
         places, events, closed, reason = [first], [], False, f"followed over {self.limit} orbits"
+        before, short = [], step  # events that were known before each step; steps are looked into that are longer
+        follower, wide = self, 1.0
         while len(places) <= self.limit:
             last, closing = places[-1], None
-            end, limited = self._limit(last, step)
+            end, limited = follower._limit(last, step)
             if limited == 0.0:
                 reason = f"reaches the end of the range, {end:g}"
                 break
             try:
-                place, easy = self._next(last, limited, end)
+                place, easy = follower._next(last, limited, end)
                 if _meets_half(self.system, last.orbit.points, place.orbit.points):
                     reason = f"meets the orbit of period {last.orbit.period // 2}"
                     break
+                turn, length = self._turn(*places[-2:], place)
+                if length > short:
+                    step = 0.5 * length
+                    if turn < 0.0:
+                        places.pop()
+                        del events[before.pop() :]
+                    continue
                 if len(places) > 2:
                     closing = _come_back(self.system, first, last, place)
                 place = closing or place
-                events += events_between(self.system, last, place, self.count, self.accuracy)
+                between = events_between(follower.system, last, place, self.count, self.accuracy)
             except ArithmeticError as why:
                 step = 0.5 * limited
-                if step < self.least:
+                if step < self.least and isinstance(why, NotSolved) and wide < WIDEST:
+                    wide *= WIDER
+                    follower, places[-1] = follower._widened(last, WIDER)
+                    step = short
+                elif step < self.least:
                     reason = f"at {last.orbit.parameter:.6g} no step above {self.least:g} succeeds: {why}"
                     break
                 continue
             places.append(place)
+            before.append(len(events))
+            events += between
             if closing:
                 closed = True
                 reason = "comes back to its beginning"
@@ -155,7 +173,17 @@ class _Follower:
                 break
             if easy:
                 step = min(step * GROW, self.longest)
+            if wide > 1.0 and step > short:
+                follower, places[-1] = follower._widened(place, 1.0 / wide)
+                wide, step = 1.0, short
         return places[1:], events, reason, closed
+
+    def _widened(self, place, by):
+        """The same with a parameter whose size is that many times as large, and a place with the tangent of that."""
+        system = replace(self.system, parameter_size=by * self.system.parameter_size)
+        length = system.length(place.change[0], place.rate / by)
+        change, rate = place.change / length, place.rate / by / length
+        return replace(self, system=system), place._replace(change=change, rate=rate, slopes=by * place.slopes)
 
     def _limit(self, place, step):
         """The end of the range that a step would reach, or None; and the step, cut there."""
@@ -175,15 +203,36 @@ class _Follower:
         newton = NEAR_ORBITS._replace(tolerance=self.system.tolerance)
         solved = solved_near(self.system, points, parameter, newton, across, directions, place.slopes)
         if self.system.length(solved.points[0] - points[0], (solved.parameter - parameter) / size) > NEAR * step:
-            raise NoImage("the branch turns too sharply: the map is not smooth there, or steps scatter the orbit")
+            raise NotSolved("the branch turns too sharply: the map is not smooth there, or steps scatter the orbit")
         if not self.low <= solved.parameter <= self.high:
             raise NoImage("the orbit found is out of the range")
         orbit, space = described(solved, self.count)
         slopes = slopes_of(solved.maps, solved.shots, solved.points, solved.parameter)
         change, rate = tangent_of(self.system, space, slopes, tangent)
         if tangent @ np.append(change[0], rate) < STRAIGHT:
-            raise NoImage("the branch turns too sharply: the map is not smooth there, or steps scatter the orbit")
+            raise NotSolved("the branch turns too sharply: the map is not smooth there, or steps scatter the orbit")
         return Place(orbit, change, rate, slopes), solved.iterations <= FEW
+
+    def _turn(self, *places):
+        """Where a test function seems to be zero twice between neighbours of three places, by the parabola through its
+        values there: below 0 between the first two, above 0 between the last two; and how far these are apart. 0, 0: it
+        does not."""
+        if len(places) < 3:
+            return 0.0, 0.0
+        steps = []
+        for place, following in pairwise(places):
+            way = following.orbit.points[0] - place.orbit.points[0]
+            rate = (following.orbit.parameter - place.orbit.parameter) / self.system.parameter_size
+            steps.append(self.system.length(way, rate))
+        for factors in FACTORS.values():
+            values = [test_of(factors, place.orbit) for place in places]
+            bend, slope, value = np.polyfit([-steps[0], 0.0, steps[1]], values, 2)
+            alike = min(value * values[0], value * values[2]) > 0.0
+            if alike and 0.0 < 4.0 * bend * value < slope**2:
+                turn = -0.5 * slope / bend
+                if -steps[0] < turn < steps[1]:
+                    return turn, steps[int(turn > 0.0)]
+        return 0.0, 0.0
 
 
 def tangent_of(system, space, slopes, direction):

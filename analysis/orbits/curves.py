@@ -25,7 +25,7 @@ import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
 from analysis.orbits.branches import FEW, GROW, NEAR, ON_CHORD, STRAIGHT
-from analysis.orbits.events import FACTORS, NEAR_ORBITS, angle_of
+from analysis.orbits.events import FACTORS, NEAR_ORBITS, angle_of, test_of
 from analysis.orbits.finding import Orbit, corrected, described, real_span
 from analysis.orbits.maps import NoImage, NotSolved, OrbitMap, shoot, slopes_of
 from analysis.orbits.spaces import Space
@@ -39,7 +39,7 @@ ON_CURVE = 1e-11  # sigma, in steps, of a smooth system
 CLOSE, ROUGH = 1e-2, 1e-3
 # gaps: of a smooth system; of one in steps before they are chosen again; then, as its steps change a point by more
 SMOOTHLY, ROUGHLY, IN_STEPS = (NEAR_ORBITS._replace(tolerance=gap) for gap in (1e-11, 1e-4, 1e-6))
-CUSP = 0.05  # speed of the shadow at an extremum, beside that of its neighbours, below which it is a cusp
+BESIDE = 0.1  # of a chord, from an extremum to the points that say whether the shadow turns back there: a cusp
 RESONANCES = {"1:3": 2.0 * np.pi / 3.0, "1:4": 0.5 * np.pi}  # angles of torus points
 LEAP = 0.1  # of a test of special points at its zero, beside the smaller one of its neighbours: it is not continuous
 COMPLEX = "multipliers", "vectors"  # of an orbit
@@ -167,7 +167,7 @@ class _Follower:
 
     def test(self, orbit):
         """g: with the multipliers that are known."""
-        return float(np.prod(FACTORS[self.kind](orbit.multipliers)).real)
+        return test_of(FACTORS[self.kind], orbit)
 
     def place(self, orbit):
         """(N, n + 2) of an orbit: its points, each with the parameters in their sizes."""
@@ -214,7 +214,7 @@ class _Follower:
         return np.array([first, second / self.length(second)])
 
     def first(self, points, parameters, step):
-        """The point nearest to a start, and the direction (N, n + 2) of the curve there."""
+        """The point nearest to a start and within the ranges, and the direction (N, n + 2) of the curve there."""
         maps = self.system.near(points, parameters)
         shots = shoot(maps, points, parameters)
         slopes = slopes_of(maps, shots, points, parameters)
@@ -236,6 +236,9 @@ class _Follower:
         along, across = on_first * plane[1] - on_second * plane[0], on_first * plane[0] + on_second * plane[1]
         start = CurvePoint(orbit.parameter, np.zeros(2), orbit, 0.0, across, steepest)
         point, _ = self.on_curve((orbit.points, orbit.parameter), along, start, step, along)
+        limit = self._beyond(point.parameters)
+        if limit is not None:
+            point = self._at_border(point, along, limit)
         return point, along if along[0, -1] >= 0.0 else -along
 
     def slopes_of_test(self, orbit, space, plane, rows, slopes, step):
@@ -387,7 +390,8 @@ class _Follower:
                     other = self._beyond(point.parameters)
                     if other is not None:  # the curve leaves the range of that key first
                         limit, point = other, self._at_border(last, tangent, other)
-                    points.append(point)
+                    if point is not last:
+                        points.append(point)
                     k, end = limit
                     return points, f"reaches the end of the range of key {k + 1}, {end:g}", False
             except ArithmeticError as why:
@@ -431,11 +435,11 @@ class _Follower:
         return None
 
     def _at_border(self, last, tangent, limit):
-        """The point at which the curve reaches the end of the range of parameter k."""
+        """The point at which the curve reaches the end of the range of parameter k: the last one, if it is there."""
         k, end = limit
         step = (end - last.parameters[k]) / self.size[k] / tangent[0, -2 + k]
         if abs(step) < 1e-9 * self.longest:
-            raise NoImage("the curve begins at the end of the range")
+            return last
         guess = self.shifted(last.orbit, tangent, step)
         guess[1][k] = end
         along = self.direction(np.zeros_like(last.orbit.points), np.eye(2)[k])
@@ -511,12 +515,11 @@ class _Follower:
         try:
             share = minimize_scalar(depth, bounds=(0.0, 1.0), method="bounded", options=settings).x
             point = self._between(before, after, share, measured=True)
-            sides = [self._between(before, after, share + by).parameters for by in (-0.05, 0.05)]
+            sides = [self._between(before, after, share + by).parameters for by in (-BESIDE, BESIDE)]
         except ArithmeticError as why:
             return _lost("extremum", before, after, why)
-        speed = np.linalg.norm((sides[1] - sides[0]) / self.size) / 0.1
-        chord = self.place(after.orbit) - self.place(before.orbit)
-        cusp = self.kind == "fold" and speed < CUSP * self.length(chord)
+        behind, ahead = ((side - point.parameters) / self.size for side in sides)
+        cusp = self.kind == "fold" and behind @ ahead > 0.0  # there the shadow turns back
         return replace(point, kind="cusp" if cusp else "extremum")
 
 

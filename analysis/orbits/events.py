@@ -15,6 +15,7 @@ v, Jv, ... The correction is orthogonal to v and the parameter is free (equation
 """
 
 from collections import namedtuple
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 
@@ -78,6 +79,11 @@ FACTORS = {
 }
 
 
+def test_of(factors: Callable, orbit: Orbit) -> float:
+    """The product that changes its sign at an event."""
+    return float(np.prod(factors(orbit.multipliers)).real)
+
+
 def events_between(system: OrbitMap, begin: Place, end: Place, count: int, accuracy: float) -> list[Event]:
     """Events between two neighbours of a branch; none where their multipliers are not settled.
 
@@ -109,8 +115,7 @@ class _Chord:
         self.maps = None  # None: every orbit takes steps of its own
 
     def test(self, orbit):
-        """The product that changes its sign at an event."""
-        return float(np.prod(self.factors(orbit.multipliers)).real)
+        return test_of(self.factors, orbit)
 
     def between(self, share):
         """Points and parameter at a share of the way, from the nearest orbits found; beyond the ends, from these."""

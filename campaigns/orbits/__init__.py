@@ -140,7 +140,10 @@ def _check_second(order: Order, scene) -> None:
 
     key = order.options.second
     value, (low, high) = key.of(scene), (key.values[0], key.values[-1])
-    if value is None or not low <= value <= high:
+    if value is None:
+        order.tell(f"--curves {key.key}: the scene has no value of it; allowed: a key that it has")
+        return
+    if not low <= value <= high:
         allowed = f"a range with the value of the scene, {value}"
         order.tell(f"--curves {key.key}: given {low:g} to {high:g}; allowed: {allowed}")
         return

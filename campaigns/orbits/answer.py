@@ -7,7 +7,7 @@ from functools import partial
 from itertools import groupby
 
 from campaigns.answers import kilonewton, numbers_of
-from tables import WHOLE_BRANCH, Column, Row, count, listed, number_of, typed
+from tables import PEAK, WHOLE_BRANCH, Column, Row, count, listed, number_of, typed
 
 NONE = "No periodic motion has an orbit that could be found: {}."
 ACCURATE = 2e-4  # of an event, and of its value where that is above 1, as in the report
@@ -61,7 +61,7 @@ def _branch(branch: Row, orbits: Sequence[Row], key: Column, events: Sequence[Ro
     sentence = f"Period {branch['branch']}"
     if branch["motion"]:
         sentence += f" (motion {branch['motion']})"
-    spans = _stable_spans(orbits, key, numbers_of(events, key.name))
+    spans = _stable_spans(orbits, key, events)
     if number_of(branch, "closed"):
         sentence += ", an island"
         if len(spans) > 1 and _is_stable(orbits[0]) and _is_stable(orbits[-1]):
@@ -82,20 +82,35 @@ def _branch(branch: Row, orbits: Sequence[Row], key: Column, events: Sequence[Ro
     return f"{sentence}."
 
 
-def _stable_spans(orbits: Sequence[Row], key: Column, turns: Sequence[float]) -> list[tuple]:
-    """Ranges of the key in which the orbits of a branch are stable; turns: the values of its events.
+def _stable_spans(orbits: Sequence[Row], key: Column, events: Sequence[Row]) -> list[tuple]:
+    """Ranges of the key in which the orbits of a branch are stable.
 
-    Where stability changes, the event nearest to the last stable orbit is the end.
+    Where stability changes, the end is the event on the shortest way from the last stable orbit to the next one, in
+    the key and in the tension: at one value of the key a branch has several orbits.
     """
     values, stable = numbers_of(orbits, key.name), list(map(_is_stable, orbits))
+    sizes = {}
+    for name in (key.name, PEAK):
+        numbers = numbers_of(orbits, name)
+        sizes[name] = max(numbers) - min(numbers) or 1.0
+
+    def way(event, *neighbours):
+        length = 0.0
+        for orbit in neighbours:
+            for name, size in sizes.items():
+                length += abs(number_of(event, name) - number_of(orbit, name)) / size
+        return length
+
     spans = []
     for number, value in enumerate(values):
         if not stable[number]:
             continue
         ends = [value]
         for neighbour in (number - 1, number + 1):
-            if turns and 0 <= neighbour < len(values) and not stable[neighbour]:
-                ends.append(min(turns, key=lambda turn, value=value: abs(turn - value)))
+            if events and 0 <= neighbour < len(values) and not stable[neighbour]:
+                pair = orbits[number], orbits[neighbour]
+                nearest = min(events, key=lambda event, pair=pair: way(event, *pair))
+                ends.append(number_of(nearest, key.name))
         if number and stable[number - 1]:
             ends += spans.pop()
         spans.append((min(ends), max(ends)))
@@ -120,7 +135,7 @@ def _between(orbits: Sequence[Row], key: Column) -> Iterator[str]:
         for row in group:
             name = row["branch"] or f"{number_of(row, 'period'):.0f}"
             words = stable if _is_stable(row) else unstable
-            words.append(f"period {name} ({kilonewton(number_of(row, 'tension_top_max_N'))}, {multiplier(row)})")
+            words.append(f"period {name} ({kilonewton(number_of(row, PEAK))}, {multiplier(row)})")
         if unstable and stable:
             at = f"{key.symbol} = {typed(value)}"
             yield f"At {at} stable: {listed(stable)}; unstable, and between: {listed(unstable)}."

@@ -11,7 +11,7 @@ from tables import Row, read_columns
 
 FOLDER = "curves"
 FILES = "columns.csv", "table.csv"
-OF_AN_ORBIT = "gravity_mps2", "tether", "anchor", "end", "buoy", "water", "waves"  # parts of a scene
+NOT_OF_AN_ORBIT = {"name", "title", "motion", "start", "solver", "output"}  # parts of a scene
 
 
 def folder_of_curves(text: str) -> str:
@@ -45,7 +45,8 @@ def faults(folder: str, grid: CellGrid, place: Row, scene) -> Iterator[str]:
         yield f"{given}: its scene.toml: {error}"
         return
     of_map = scene.as_dict()
-    differing = [part for part in OF_AN_ORBIT if own.get(part) != of_map.get(part)]
+    parts = [part for part in of_map | own if part not in NOT_OF_AN_ORBIT]
+    differing = [part for part in parts if own.get(part) != of_map.get(part)]
     if differing:
         yield f"{given}: has curves of another scene, with another {', '.join(differing)}; allowed: of that of the map"
 

@@ -43,6 +43,19 @@ def test_orbits_are_told_with_errors_and_those_known_badly_apart():
     assert list(of_orbits(tables["rows"], Column("kA", "", "kA", "", 4), tables["parts"])) == tables["lines"]
 
 
+def test_orbits_stop_being_stable_at_the_event_beside_them_not_at_one_of_others_at_that_value():
+    """A flip at 0.0614 kA and 1.8 kN; behind it the branch folds back at 0.0546, where it pulls with 2.9 kN."""
+    rows, events = [], []
+    for kA, kN, unstable in ((0.04, 1.6, 0), (0.055, 1.7, 0), (0.064, 1.8, 1), (0.056, 2.8, 1), (0.0547, 2.9, 0)):
+        rows.append({"branch": "1", "kA": kA, "unstable": unstable, PEAK: 1e3 * kN})
+    for kind, kA, kN in (("flip", 0.0614, 1.79), ("fold", 0.0546, 2.86)):
+        events.append({"branch": "1", "kind": kind, "kA": kA, "error": 1e-5, "finer": kA, PEAK: 1e3 * kN})
+    branch = {"branch": "1", "status": "ok", "motion": "", "closed": 0, "begins": "", "ends": ""}
+    parts = {"branches": [branch], "events": events, "orbits": []}
+    _, sentence, *_ = of_orbits(rows, Column("kA", "", "kA", "", 4), parts)
+    assert "stable at kA = 0.04 to 0.0614 and 0.0546 to 0.0547" in sentence
+
+
 OPTIONS = sea.Options(starts=4, slope=5.0, window=10, distance=0.05, no_regular=False, most_hours=12.0)
 
 

@@ -172,6 +172,9 @@ def test_a_cut_is_the_sweep_of_its_values_and_the_map_computes_nothing_again(tmp
     assert len(rest) == 2 and rest <= {row["run_key"] for row in rows_of(tmp_path / "sweep")}
 
 
+CURRENT = {"current": {"law": "uniform", "velocity_mps": [0.3, 0.0, 0.0]}}
+
+
 def folder_of_curves(folder, keys=("waves.steepness", "water.depth_m"), changes=None):
     columns = [*COLUMNS, *(Column(key, "", key, "a key", 5) for key in keys), *ERRORS, STATUS]
     (folder / "curves").mkdir(parents=True)
@@ -201,6 +204,12 @@ def test_curves_of_orbits_are_drawn_and_cells_without_a_border_are_told(tmp_path
         (("waves.steepness", "waves.period_s"), {}, "has curves over waves.steepness and waves.period_s"),
         (("waves.steepness", "water.depth_m"), {"buoy.mass_kg": 1700.0}, "another buoy"),
         (("waves.steepness", "water.depth_m"), {"gravity_mps2": 9.7}, "another gravity_mps2"),
+        (
+            ("waves.steepness", "water.depth_m"),
+            {"current": {"law": "uniform", "velocity_mps": [0.3, 0.0, 0.0]}},
+            "another current",
+        ),
+        (("waves.steepness", "water.depth_m"), {"floor.stiffness_Npm3": 1e4}, "another floor"),
         (None, {}, "a folder of campaigns.orbits --curves"),
     ],
 )

@@ -68,6 +68,35 @@ def test_an_island_is_born_and_dies_at_extremes_of_a_closed_curve():
     assert {point.kind for point in curve.special} == {"extremum"}
 
 
+def test_an_extremum_is_no_cusp_because_its_orbits_change_more_than_the_parameters():
+    """The ring, in which x grows by 30 a."""
+
+    def sheared(z, p):
+        x, a = z[0], p[0]
+        image, linear = ring(np.array([x - 30.0 * a]), p)
+        return image + 30.0 * a, linear
+
+    curve = curve_of(sheared, "fold", [3.0], [0.1, 0.99**0.5], (-0.2, 0.0), (0.2, 2.0), step=0.5, longest=1.0)
+    (point,) = curve.special
+    assert point.kind == "extremum" and point.parameters == pytest.approx([0.0, 1.0], abs=CLOSE)
+
+
+def test_a_curve_whose_event_lies_beside_the_range_begins_at_its_border():
+    """No point is outside, and the first one, beside that of the border, makes no island."""
+    curve = curve_of(henon, "flip", [0.35, 0.105], [0.3695, 0.3], (-3.0, 0.3), (6.0, 0.9))
+    assert curve.parameters[[0, -1], 1].tolist() == [0.3, 0.9] and not curve.special
+    assert curve.parameters[:, 1].min() == 0.3
+
+
+@pytest.mark.parametrize("on", [0, 1])
+def test_a_curve_that_begins_at_the_end_of_a_range_reaches_it(on):
+    low, high = np.array([-3.0, -1.5]), np.array([6.0, 0.9])
+    low[on] = start = (0.3675, 0.3)[on]
+    curve = curve_of(henon, "flip", [0.35, 0.105], [0.3675, 0.3], low, high)
+    assert f"reaches the end of the range of key {on + 1}, {start:g}" in curve.ends
+    assert len(np.unique(curve.parameters, axis=0)) == len(curve.points)
+
+
 @pytest.mark.parametrize(("kind", "z", "a"), [("fold", -0.35, -0.1225), ("flip", 0.35, 0.3675)])
 def test_what_a_more_accurate_map_changes_of_a_point_is_in_its_errors(kind, z, a):
     """A map whose first parameter is wrong by 1e-4 shows each point that much too low."""

@@ -170,6 +170,32 @@ def test_an_event_is_told_with_its_kind_its_place_and_its_angle(system, start, a
     assert abs(seen.parameter - event[1]) <= seen.error + 1e-8
 
 
+@pytest.mark.parametrize("middle", [0.55, 0.6, 0.65, 0.7, 0.75, 0.8])
+def test_two_flips_between_neighbours_of_a_branch_are_both_found(middle):
+    """Multiplier -1 - (1 + a) (1 - ((a - middle)/0.05)^2)/10 of the fixed point 0."""
+
+    def bubble(z, a):
+        slope = -1.0 - 0.1 * (1.0 + a) * (1.0 - ((a - middle) / 0.05) ** 2)
+        return slope * z + z**3, lambda V: (slope + 3.0 * z[:, None] ** 2) * V
+
+    system = OrbitMap(bubble)
+    branch = follow_branch(system, find_orbit(system, [0.0], 0.1), 0.0, 1.0, longest=0.3)
+    assert [event.kind for event in branch.events] == ["flip", "flip"]
+    assert [event.parameter for event in branch.events] == closely([middle - 0.05, middle + 0.05])
+    assert not all(orbit.stable for orbit in branch.orbits)
+
+
+def test_a_fold_is_passed_in_a_range_so_narrow_that_it_is_a_corner():
+    """Beside the fold of Henon's map x is its distance in a to the power 1/2: 0.007 over a range that counts as 1."""
+    fold = -(0.7**2) / 4
+    system = OrbitMap(henon, parameter_size=5e-5)
+    first = find_orbit(system, [-0.33, -0.1], fold + 2e-5)
+    branch = follow_branch(system, first, fold - 5e-5, fold + 5e-5, least=2e-3)
+    assert [event.kind for event in branch.events] == ["fold"]
+    assert branch.events[0].parameter == closely(fold)
+    assert branch.ends == (f"reaches the end of the range, {fold + 5e-5:g}",) * 2
+
+
 def test_an_island_closes_with_its_two_folds():
     system = OrbitMap(island)
     branch = follow_branch(system, find_orbit(system, [1.4], 2.0), 0.0, 4.0)
