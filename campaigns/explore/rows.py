@@ -17,7 +17,7 @@ from campaigns.explore.multipliers import MULTIPLIERS
 from campaigns.judge import periods_of, samples_of
 from campaigns.machinery import filled
 from engine.run.rest import static_tension_N
-from engine.trajectory.columns import across_waves, heading_of
+from engine.trajectory.columns import across_waves, heading_of, largest_along
 from engine.trajectory.excursions import emergence
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, snaps_of, strobed_states
 from tables import (
@@ -338,13 +338,12 @@ def snap_columns(scene, columns, transient_s: float, period: int | None = None) 
 
 
 def along_line(scene, columns, transient_s: float) -> Row:
-    """The columns ALONG_LINE, from the samples after the transient; at the upper end from every step of the solver."""
+    """The columns ALONG_LINE after the transient (`engine.trajectory.columns.largest_along`)."""
     first = int(np.ceil(transient_s / scene.sample_step_s() - 1e-6))
-    anchor, line, top = (columns[name][first:] for name in ("tension_anchor_N", "tension_max_N", "tension_top_high_N"))
-    largest_N, place_m = float(line.max()), float(columns["tension_max_s_m"][first + int(line.argmax())])
-    if top.max() > largest_N:
-        largest_N, place_m = float(top.max()), scene.tether.length_m
-    return filled(ALONG_LINE, (float(anchor.max()), largest_N, place_m))
+    largest_N, places_m = (values[first:] for values in largest_along(columns, scene.tether.length_m))
+    most = int(largest_N.argmax())
+    anchor_N = columns["tension_anchor_high_N"][first:].max()
+    return filled(ALONG_LINE, (float(anchor_N), float(largest_N[most]), float(places_m[most])))
 
 
 def sound_part(columns) -> dict[str, np.ndarray]:

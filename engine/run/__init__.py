@@ -96,7 +96,7 @@ class Run:
         for i, axis in enumerate(axes):
             Y[:, len(axes) + i] = record[f"start_{axis}"] * self.s / self.s[-1]
         self.motion.Y_before[:] = Y
-        state["low"], state["high"] = np.inf, -np.inf
+        state["low"], state["high"], state["foot"] = np.inf, -np.inf, -np.inf
         self._watch()
         # a sudden start has rates at t = 0 that are not zero: steps that need none come first, or the order falls to 1
         needs_rates = record["method"] == col.RUNGE_KUTTA or record["alpha_m"] != record["gamma"]

@@ -16,7 +16,7 @@ from ..scene.models import Scene
 from ..time.folds import words_of_folds
 from ..time.ringing import HEARD
 from ..time.status import OK, WAVES_ON_ELEMENT
-from ..trajectory.columns import Columns
+from ..trajectory.columns import Columns, largest_along
 from .companions import NOTED, ROUNDING, SLACK, compression_N, other_grids, slack_samples, steps_too_long
 from .rest import rest_of
 
@@ -132,7 +132,7 @@ def _beyond_the_table(run, columns):
     damped = run.scene.tether.damping_Ns or run.scene.tether.damping_critical  # which has a part in the tension
     if law.law != "tabulated" or damped:
         return ""
-    largest_N = float(columns["tension_max_N"].max())
+    largest_N = float(largest_along(columns, run.scene.tether.length_m)[0].max())
     if not largest_N > law.tension_N[-1]:
         return ""
     return (
