@@ -76,6 +76,9 @@ ALONG_LINE = (
         "unstretched length from the anchor to where the tension along the line is largest", 1, SHEET,
     ),
 )  # fmt: skip
+START_UP = Column(
+    "tension_top_start_N", "N", "T_start", "largest tension at the top before the transient is over", 0, SHEET
+)
 # Snaps of a motion whose period is not known are counted over a multiple of so many waves, into which periods 2, 3, 4
 # and 6 fit.
 WHOLE_WAVES = 12
@@ -138,6 +141,7 @@ COLUMNS = (
     *EXTREMES,
     *SNAPS,
     *ALONG_LINE,
+    START_UP,
     ERROR,
     SLACK_ERROR,
     *WOLF,
@@ -198,6 +202,9 @@ def buoy_row(trajectory, judgement) -> Row:
             measured |= settled(scene, orbit, 0.0) | snap_columns(scene, orbit, 0.0, period)
             measured[STROBED.name] = period
         row |= {TRANSIENT.name: transient_periods, **measured}
+        if transient_periods:
+            before = samples_of(scene, transient_periods)
+            row[START_UP.name] = float(columns["tension_top_high_N"][:before].max())
         if scene.motion.dimensions == 3:
             first = samples_of(scene, transient_periods)  # after the transient
             distance_m = across_waves(heading_of(scene), columns["x_m"], columns["y_m"])
