@@ -29,7 +29,7 @@ from ..trajectory.excursions import named_end, with_excursions
 from ..trajectory.final_state import FinalState
 from .rest import Rest, largest_turn, rest_of
 from .start import taken_over
-from .trust import doubts_of
+from .trust import bent_at_clamp, doubts_of
 
 CONTROLLED = "solver.rtol or solver.max_step_s"  # keys of steps that are controlled
 CALL_S = 0.1  # length of a call of machine code; Ctrl-C has an effect only between two calls
@@ -213,7 +213,9 @@ class Run:
         """Why the run ended early."""
         steps = CONTROLLED if self.record["adaptive"] else longest_step(self.scene)[0]
         message = advice(self.state, steps)
-        return message if self.rest is None else message + self.rest.fault
+        if self.rest is not None:
+            message += self.rest.fault
+        return "; ".join(filter(None, (message, bent_at_clamp(self))))
 
     def _statistics(self, columns: Columns) -> dict[str, int | float]:
         """What this run has done, without the runs that it went on from."""
