@@ -18,12 +18,13 @@ PROFILE_WIDTH = 6
 # columns of the samples of the upper end: time; place x, y, z; velocity x, y, z; tension there, least tension along the
 # line, least and greatest tension at the upper end since the sample before; largest distance from the plane; loops
 # released since t = 0; height of the lowest node; ringing (N) that the steps since the sample before did not resolve;
-# tension at the lower end; largest tension along the line, and the arc length s at which it is
+# tension at the lower end; largest tension along the line, and the arc length s at which it is; greatest tension at the
+# lower end since the sample before
 (
     TIME, AT_X, AT_Y, AT_Z, AT_U, AT_V, AT_W, TOP, LEAST, TOP_LOW, TOP_HIGH, OFFPLANE, RELEASES, LOWEST, MISSED,
-    FOOT, MOST, MOST_AT,
-) = range(18)  # fmt: skip
-SAMPLE_WIDTH = 18
+    FOOT, MOST, MOST_AT, FOOT_HIGH,
+) = range(19)  # fmt: skip
+SAMPLE_WIDTH = 19
 BEGIN, STEP, KIND = range(3)  # columns of the times of a trail: t (s), dt (s), one of the next
 SMALL_STEPS = 3  # of backward Euler after a sudden start, or where an end is let go
 RELEASE_STEPS = 8  # of backward Euler after a loop release
@@ -94,14 +95,14 @@ KINDS = {
 # small_steps, cautious: steps of backward Euler, of slow growth still to come; attempts: steps tried up to window_end;
 # small, cut: the trial is one of backward Euler, ends at the corner (s), which no step may cross; dt_before: the last
 # accepted step (0: of no use); turned: upper node of the element whose released turn is held, with the sign of the
-# turn, or 0; low, high: extremes of the top tension since the last sample; first, first_profile:
-# numbers of the samples and profiles, counted from t = 0, with which the output begins; folded: time (s) at which an
-# element first turned by more than FOLD of `engine.time.folds`, inf before
+# turn, or 0; low, high, foot: extremes of the top tension and greatest tension at the lower end since the last sample;
+# first, first_profile: numbers of the samples and profiles, counted from t = 0, with which the output begins; folded:
+# time (s) at which an element first turned by more than FOLD of `engine.time.folds`, inf before
 STATE = np.dtype(
     _dtype(
         "status samples profiles small_steps steps rejected newton failures releases attempts cautious trail energies "
         "small cut first first_profile turned",
-        "t dt dt_before low high max_turn min_strain window_end trial_dt corner ringing folded",
+        "t dt dt_before low high foot max_turn min_strain window_end trial_dt corner ringing folded",
     )
 )
 

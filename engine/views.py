@@ -271,17 +271,21 @@ def facts(run: "Trajectory") -> dict[str, str]:
         texts["began"] = run.began
     if len(time_s) > 3:
         texts["radius"] = _in_words(run, "radius_m", "m")
+        from engine.trajectory.columns import largest_along
+
         texts["tension"] = _in_words(run, "tension_top_N", "N at the top")
         largest_N, breaking_N = run.columns["tension_top_high_N"].max(), run.scene.tether.breaking_load_N
-        most_N = run.columns["tension_max_N"]
+        most_N, places_m = largest_along(run.columns, run.scene.tether.length_m)
         place = int(most_N.argmax())
         if most_N[place] > (1.0 + BELOW_TOP) * largest_N:
-            place_m = digits(run.columns["tension_max_s_m"][place], 4)
+            place_m = digits(places_m[place], 4)
             texts["line"] = (
                 f"bears up to {most_N[place]:.2f} N (t = {time_s[place]:.5g} s), {place_m} m from the anchor"
             )
         if breaking_N is not None:
-            texts["strength"] = f"largest tension at the top is {largest_N / breaking_N:.2%} of tether.breaking_load_N"
+            texts["strength"] = (
+                f"largest tension of the line is {most_N[place] / breaking_N:.2%} of tether.breaking_load_N"
+            )
         texts |= _snaps_in_words(run)
     loops = run.statistics.get("loop_releases")
     if loops:
@@ -376,7 +380,7 @@ _WATCHED = {
     "radius_m": ("radius_m", "radius_m"),
     "angle_rad": ("angle_rad", "angle_rad"),
     "tension_top_N": ("tension_top_low_N", "tension_top_high_N"),
-    "tension_anchor_N": ("tension_anchor_N", "tension_anchor_N"),
+    "tension_anchor_N": ("tension_anchor_N", "tension_anchor_high_N"),
     "tension_line_N": ("tension_min_N", "tension_max_N"),
 }
 
@@ -385,7 +389,7 @@ def extremes(run: "Trajectory") -> "pandas.DataFrame":
     """Least and largest values with their times: of the whole run, and after its beginning.
 
     The index has the part ("whole run", "after t = 166.65 s") and the quantity: radius and angle of the upper end,
-    tension there, at the anchor and anywhere along the line. The top is watched at every step, the line at samples.
+    tension there, at the anchor and anywhere along the line. The ends are watched at every step, the line at samples.
     The beginning is the first third under what drives a run with one period, and a ramp of the waves.
     """
     import pandas
@@ -402,8 +406,12 @@ def extremes(run: "Trajectory") -> "pandas.DataFrame":
 
 def _extremes(run: "Trajectory", quantity: str) -> "Iterator[tuple[str, float, float, float, float]]":
     """Of each part of a run: its name, the least value of a quantity and its time, the largest and its time."""
+    from engine.trajectory.columns import largest_along
+
     time_s, waves = run.columns["time_s"], run.scene.waves
     low, high = (run.columns[name] for name in _WATCHED[quantity])
+    if quantity == "tension_line_N":
+        high, _ = largest_along(run.columns, run.scene.tether.length_m)
     ramped = 0 if waves is None else int((time_s < waves.ramp_s).sum())
     begun = ramped if _forced(run.scene) is None else max(ramped, len(time_s) // 3)
     for first in sorted({0, min(begun, len(time_s) - 1)}):

@@ -14,7 +14,7 @@ from rest is found by bisection of states. The order of the starts is drawn by -
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from campaigns.basins.grid import PAIRS, StartGrid
 from campaigns.explore.sweep import BUDGET, ONLY, columns_of, kick_speed, measures_of, tables_of
@@ -24,7 +24,7 @@ from campaigns.study import Measures, Order, Study
 from engine.views import carries_tangents
 from tables import Rows
 
-COUNT, MOVED_M = 15, 2.0
+COUNT, MOVED = 15, 4.0 / 3.0  # starts along an axis; farthest place of the buoy, of its diameter
 DEPTH_M = 22.5  # of the tethered buoy unless --set says otherwise: at its 21.0 m every start ends in one motion
 REST = {"start.buoy_velocity_mps": [0.0, 0.0, 0.0], "start.buoy_displacement_m": [0.0, 0.0, 0.0]}
 
@@ -38,7 +38,9 @@ class Options(cli.Options):
     )
     grid: list[str] | StartGrid = cli.option("N|N M", "starts along both, or along each of the two", usual=str(COUNT))
     kick_speed: float = kick_speed("velocities go up to this both ways, m/s")
-    displacement: float = cli.option("M", "places go so far from that of rest both ways, m", cli.POSITIVE, MOVED_M)
+    displacement: float = cli.option(
+        "M", "places go so far from that of rest both ways, m (default: 4/3 of the buoy's diameter)", cli.POSITIVE
+    )
     seed: int = cli.seed("of the order of the starts, that of a scrambled Halton sequence")
 
     def read(self, faults: list[str]) -> None:
@@ -61,6 +63,15 @@ class Options(cli.Options):
         self.grid = StartGrid(tuple(across.split()), (counts[0], counts[-1]), size)
 
 
+def usual_size(grid: StartGrid, scene) -> float:
+    """How far the starts of a grid go where no option says it."""
+    if grid.across == ("x", "z"):
+        return MOVED * scene.buoy.diameter_m
+    from campaigns.explore.starts import kick_speed_mps
+
+    return kick_speed_mps(None, scene)
+
+
 def cases(order: Order) -> Iterator[Job]:
     """The scene from rest, judged as long as it needs; the starts follow from it (`exploration`)."""
     order.look_by_look(BUDGET)
@@ -74,6 +85,8 @@ def cases(order: Order) -> Iterator[Job]:
         return
     scene = judged_scene(order, REST)
     if scene is not None:
+        if order.options.grid.size is None:
+            order.options.grid = replace(order.options.grid, size=usual_size(order.options.grid, scene))
         from engine.physics.sea import steepness_of  # half a second, which a list of options does not need
 
         labels = {"steepness": steepness_of(scene), "dimensions": scene.motion.dimensions}

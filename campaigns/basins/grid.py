@@ -22,13 +22,15 @@ GRID = "grid"  # found_by of its starts
 class StartGrid:
     """counts of starts along the two axes `across`; each from -size to size (m/s, m), phases all round.
 
+    size: None until the scene is known.
+
     A start is also told by a turn and a size: direction and length of its kick; with a phase, the turn is that, and the
     second time round the kick goes the other way.
     """
 
     across: tuple[str, str]
     counts: tuple[int, int]
-    size: float
+    size: float | None
 
     @property
     def round(self) -> float:

@@ -7,6 +7,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 
 from campaigns.answers import greatest, kilonewton, known_rows
+from campaigns.explore.motions import from_rest
 from engine.natural_frequencies import natural_frequencies
 from engine.trajectory.excursions import EMERGES
 from engine.views import in_regular_waves
@@ -27,6 +28,7 @@ from tables import (
     typed,
 )
 
+VIOLENT = 1.25  # times the peak: a larger tension of the start-up is told
 BELOW_BED = "below the bed"  # in the message of a run (`engine.trajectory.excursions`)
 OVERBUOYANT = "the buoy comes out of the water and keeps its whole buoyancy (--set buoy.submergence=spherical-cap)"
 
@@ -46,7 +48,7 @@ def load(rows: Rows, keys: Mapping[str, str], scene, companions: Rows = ()) -> s
         if _is_below_the_top(peak, peak):
             words[0] += f" ({_in_the_line(peak)})"
     words += [of_motion(peak), place_of(peak, keys), str(peak.get("regime") or "")]
-    sentences = [f"{', '.join(filter(None, words))}.{_below_the_top(rows, peak, keys)}"]
+    sentences = [f"{', '.join(filter(None, words))}.{_below_the_top(rows, peak, keys)}{_start_up(rows, peak, keys)}"]
     if scene is None:
         return sentences[0]
     if not any(reasons(peak, scene)):
@@ -84,6 +86,16 @@ def _below_the_top(rows: Rows, peak: Row, keys: Mapping[str, str]) -> str:
     if most is peak and math.isfinite(number_of(peak, "utilisation")):  # told beside that
         return ""
     return f" Below its top the line bears up to {_in_the_line(most)}, {place_of(most, keys)}."
+
+
+def _start_up(rows: Rows, peak: Row, keys: Mapping[str, str]) -> str:
+    """The largest tension of runs from rest before they have settled, with a space in front, where it is far above the
+    peak."""
+    most = greatest([row for row in rows if from_rest(row)], "tension_top_start_N")
+    if most is None or not most["tension_top_start_N"] > VIOLENT * peak[PEAK]:
+        return ""
+    pull = kilonewton(most["tension_top_start_N"])
+    return f" Before it has settled a run from rest pulls up to {pull}, {place_of(most, keys)}."
 
 
 def is_searched(row: Row, rows: Rows, keys: Iterable[str]) -> bool:

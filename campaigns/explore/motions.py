@@ -50,14 +50,14 @@ class Search(NamedTuple):
 
     order: of which the judged runs are.
     kicks: at each place, besides the run from rest.
-    speed_mps: of a kick along x and z, at most.
+    speed_mps: of a kick along x and z, at most; None: by the waves (`kick_speed_mps`).
     seed: of the kicks.
     most: wave periods of a judged run, as of `campaigns.judge.judged_job`.
     """
 
     order: Order
     kicks: int
-    speed_mps: float
+    speed_mps: float | None
     seed: int
     most: int | None = None
 

@@ -9,7 +9,7 @@ import numpy as np
 import engine
 from analysis import approach_evidence, approached_period, joins, settled
 from analysis.orbits import NoImage, OrbitMap, find_orbit
-from campaigns.explore.starts import Start
+from campaigns.explore.starts import Start, kick_speed_mps
 from campaigns.machinery import Plan, Store, Task, key_of, made_by, results
 from engine.physics.strains import tension_at
 from engine.physics.waves import wave_number
@@ -30,7 +30,7 @@ def kicks(count: int, speed_mps: float, seed: int, place: int) -> list[tuple]:
     return [tuple(kick) for kick in drawn.tolist()]
 
 
-def screened(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[list]:
+def screened(plan: Plan, scenes: Sequence, speed_mps: float | None, seed: int) -> list[list]:
     """For each scene the motions of its massless tether (`simplified`); none where that model does not cover a scene.
 
     A motion has velocity (m/s) and displacement from rest (m) of a start on it, its period in wave periods, its largest
@@ -40,17 +40,18 @@ def screened(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[
     """
     from scipy.stats import qmc
 
-    spread = speed_mps * (2.0 * qmc.Halton(2, seed=seed).random(SCREENED) - 1.0)
-    kicked = np.vstack([spread, np.zeros(2)])
+    spread = 2.0 * qmc.Halton(2, seed=seed).random(SCREENED) - 1.0
+    directions = np.vstack([spread, np.zeros(2)])
     tasks = []
     for scene in map(simplified, scenes):
-        key = key_of(scene.key(), speed_mps, seed, engine.source_hash(), _maker())
-        tasks.append(Task(key, partial(_motions, kicked, scene)))
+        fastest_mps = kick_speed_mps(speed_mps, scene)
+        key = key_of(scene.key(), fastest_mps, seed, engine.source_hash(), _maker())
+        tasks.append(Task(key, partial(_motions, fastest_mps * directions, scene)))
     store = Store(plan.out / "proposals")
     return [result["motions"] for result in results(plan.how, store, "massless tethers", tasks, size=SCENES).results]
 
 
-def proposals(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[list]:
+def proposals(plan: Plan, scenes: Sequence, speed_mps: float | None, seed: int) -> list[list]:
     """For each scene a start on each motion of its massless tether that kicks have found (`screened`)."""
     starts = []
     for motions in screened(plan, scenes, speed_mps, seed):

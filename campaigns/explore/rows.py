@@ -17,7 +17,7 @@ from campaigns.explore.multipliers import MULTIPLIERS
 from campaigns.judge import periods_of, samples_of
 from campaigns.machinery import filled
 from engine.run.rest import static_tension_N
-from engine.trajectory.columns import across_waves, heading_of
+from engine.trajectory.columns import across_waves, heading_of, largest_along
 from engine.trajectory.excursions import emergence
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, snaps_of, strobed_states
 from tables import (
@@ -76,6 +76,9 @@ ALONG_LINE = (
         "unstretched length from the anchor to where the tension along the line is largest", 1, SHEET,
     ),
 )  # fmt: skip
+START_UP = Column(
+    "tension_top_start_N", "N", "T_start", "largest tension at the top before the transient is over", 0, SHEET
+)
 # Snaps of a motion whose period is not known are counted over a multiple of so many waves, into which periods 2, 3, 4
 # and 6 fit.
 WHOLE_WAVES = 12
@@ -138,6 +141,7 @@ COLUMNS = (
     *EXTREMES,
     *SNAPS,
     *ALONG_LINE,
+    START_UP,
     ERROR,
     SLACK_ERROR,
     *WOLF,
@@ -198,6 +202,9 @@ def buoy_row(trajectory, judgement) -> Row:
             measured |= settled(scene, orbit, 0.0) | snap_columns(scene, orbit, 0.0, period)
             measured[STROBED.name] = period
         row |= {TRANSIENT.name: transient_periods, **measured}
+        if transient_periods:
+            before = samples_of(scene, transient_periods)
+            row[START_UP.name] = float(columns["tension_top_high_N"][:before].max())
         if scene.motion.dimensions == 3:
             first = samples_of(scene, transient_periods)  # after the transient
             distance_m = across_waves(heading_of(scene), columns["x_m"], columns["y_m"])
@@ -338,13 +345,12 @@ def snap_columns(scene, columns, transient_s: float, period: int | None = None) 
 
 
 def along_line(scene, columns, transient_s: float) -> Row:
-    """The columns ALONG_LINE, from the samples after the transient; at the upper end from every step of the solver."""
+    """The columns ALONG_LINE after the transient (`engine.trajectory.columns.largest_along`)."""
     first = int(np.ceil(transient_s / scene.sample_step_s() - 1e-6))
-    anchor, line, top = (columns[name][first:] for name in ("tension_anchor_N", "tension_max_N", "tension_top_high_N"))
-    largest_N, place_m = float(line.max()), float(columns["tension_max_s_m"][first + int(line.argmax())])
-    if top.max() > largest_N:
-        largest_N, place_m = float(top.max()), scene.tether.length_m
-    return filled(ALONG_LINE, (float(anchor.max()), largest_N, place_m))
+    largest_N, places_m = (values[first:] for values in largest_along(columns, scene.tether.length_m))
+    most = int(largest_N.argmax())
+    anchor_N = columns["tension_anchor_high_N"][first:].max()
+    return filled(ALONG_LINE, (float(anchor_N), float(largest_N[most]), float(places_m[most])))
 
 
 def sound_part(columns) -> dict[str, np.ndarray]:

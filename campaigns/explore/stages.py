@@ -20,7 +20,7 @@ import engine
 from analysis import distance, grouped, matched
 from campaigns.explore.motions import FROM_REST, KICKED, Motion, Motions, Search, settled_in
 from campaigns.explore.proposals import has_proposals, kicks, proposals
-from campaigns.explore.starts import DISPLACED, Request, Start, reached, start_job
+from campaigns.explore.starts import DISPLACED, Request, Start, kick_speed_mps, reached, start_job
 from campaigns.judge import judged_job
 from campaigns.machinery import Job, Jobs, in_parts
 
@@ -124,7 +124,8 @@ def kick(motions: Motions, places: Sequence[int], search: Search) -> None:
     motions.kicks = search.kicks
     starts = []
     for place in places:
-        for velocity in kicks(search.kicks, search.speed_mps, search.seed, place):
+        speed_mps = kick_speed_mps(search.speed_mps, motions.jobs[place].scene)
+        for velocity in kicks(search.kicks, speed_mps, search.seed, place):
             starts.append((place, Start(KICKED, velocity)))
     kicked = {}  # the motions that kicks have found, each with its last kick
     for start, motion in zip(starts, motions.run_starts("kicks", starts, nothing_beside), strict=True):

@@ -59,6 +59,7 @@ from tables import (
 
 LOOKS = (16, 20, 24, 30, 36, 44, 54, 66, 80, 96, 112, 128, 144, 160)
 OFTEN, MOST_OFTEN = 10, 720  # samples a wave period; at most, where it is strobed between these
+KICK_MPS2 = 1.2  # speed of a kick over the wave period: 6 m/s in the waves of the paper
 KICK, DISPLACEMENT, PHASE = "start.buoy_velocity_mps", "start.buoy_displacement_m", "waves.phase_rad"
 SOURCES = "analysis", "engine", "campaigns/explore"
 FOUND_BY = of_words("found_by", "rest, massless (model), kick, or carried from a neighbour", "found by")
@@ -110,6 +111,11 @@ class Start:
 
 
 DISPLACED = Start("massless", displacement=(1.0, 0.0))  # what the starts on motions of a massless tether are like
+
+
+def kick_speed_mps(given: float | None, scene) -> float:
+    """The speed of --kick-speed, or without it that of kicks of which a model has those of its prototype."""
+    return given or KICK_MPS2 * scene.waves.period_s
 
 
 def strobed_at(phase_rad: float) -> float:

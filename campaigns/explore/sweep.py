@@ -17,7 +17,7 @@ from tables import PEAK, Columns, Rows, names, read_table
 
 ROW_SOURCES = ("analysis", "engine", "campaigns/explore", "campaigns/judge.py")
 BUDGET = 1500  # wave periods after which a run ends undecided
-KICKS, SPEED_MPS = 8, 6.0
+KICKS = 8
 ONLY = "a buoy in regular waves in a plane, with bending stiffness and an implicit integrator"
 REST = "rest"
 MOST_KICKS = 10_000
@@ -28,9 +28,9 @@ def _starts(text: str):
 
 
 def kick_speed(use: str = "kicks are velocities of up to this along x and z, m/s") -> Any:
-    """--kick-speed. use: of which starts."""
+    """--kick-speed (`campaigns.explore.starts.kick_speed_mps`). use: of which starts."""
     sound = cli.number("a number above 0 and at most 100", lambda speed: 0.0 < speed <= 100.0)
-    return cli.option("MPS", use, sound, SPEED_MPS)
+    return cli.option("MPS", f"{use} (default: 6 m/s in waves of 5 s, and in proportion to their period)", sound)
 
 
 SEED_OF_KICKS = "of the kicks, drawn independently and uniformly"

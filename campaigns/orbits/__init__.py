@@ -204,7 +204,7 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
 
         folder = plan.how.out / MOTIONS
         with claimed(folder):
-            without_kicks = Search(order, 0, motions.SPEED_MPS, 1)
+            without_kicks = Search(order, 0, None, 1)
             times = motions.every_motion(plan.within(folder), jobs, without_kicks).times
         starts = [*_under_motions(order, folder)]
     low, high = key.values[0], key.values[-1]

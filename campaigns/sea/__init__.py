@@ -90,14 +90,16 @@ class Options(cli.Options):
             faults.append(f"--snap-share: given {self.snap_share:g}; allowed: {allowed}")
 
 
-def kicks(options: Options) -> list[tuple]:
+def kicks(options: Options, scene) -> list[tuple]:
     """Velocities (x, z) of the starts in m/s: rest, then even in a disc."""
     import numpy as np
 
-    rng = np.random.default_rng(options.seed)
+    from campaigns.explore.starts import kick_speed_mps
+
+    rng, fastest_mps = np.random.default_rng(options.seed), kick_speed_mps(options.kick_speed, scene)
     velocities = [(0.0, 0.0)]
     for _ in range(options.starts - 1):
-        speed, angle = options.kick_speed * math.sqrt(rng.random()), 2.0 * math.pi * rng.random()
+        speed, angle = fastest_mps * math.sqrt(rng.random()), 2.0 * math.pi * rng.random()
         velocities.append((round(speed * math.cos(angle), 6), round(speed * math.sin(angle), 6)))
     return velocities
 
@@ -186,7 +188,7 @@ def _runs(order: Order, place: Row, seeds: Iterable[int], starts: int) -> Iterat
     for seed in seeds:
         if seed_key is None and seed > 1:
             return
-        for start, (x_mps, z_mps) in enumerate(kicks(options)[:starts]):
+        for start, (x_mps, z_mps) in enumerate(kicks(options, base)[:starts]):
             further = {}
             if seed_key is not None:
                 further[seed_key] = seed

@@ -114,6 +114,7 @@ class Record:
         self.across = np.array([-sine, cosine, 0.0])
         self.rows, self.profiles, self.state = [], [], np.zeros(1, STATE)[0]
         self.state["low"], self.state["high"], self.state["min_strain"] = np.inf, -np.inf, np.inf
+        self.state["foot"] = -np.inf
         self.state["ringing"] = -1.0
         self.closure, self.norm_error = 0.0, 0.0
         self.before = self.travelled = None
@@ -135,14 +136,16 @@ class Record:
             top, tension = at[:, -1], at[7]
             low, high = min(state["low"], top[7]), max(state["high"], top[7])
             offplane = np.abs(self.across @ at[:3]).max()
-            line_most = tension[0], tension.max(), line.s[tension.argmax()]
+            line_most = tension[0], tension.max(), line.s[tension.argmax()], max(state["foot"], tension[0])
             self.rows.append(
                 [t, *top[:6], top[7], tension.min(), low, high, offplane, 0.0, at[2].min(), 0.0, *line_most]
             )  # as `engine.record` has them
             state["low"] = state["high"] = top[7]
+            state["foot"] = tension[0]
         for _, at in self._due(self.profiles, self.profile_step, self.profile_goal, now):
             self.profiles.append(at)
         state["low"], state["high"] = min(state["low"], T[-1]), max(state["high"], T[-1])
+        state["foot"] = max(state["foot"], T[0])
         self.before = now
         if state["max_turn"] > MOST_TURN:
             return codes.TURN_UNRESOLVED

@@ -29,7 +29,7 @@ from ..trajectory.excursions import named_end, with_excursions
 from ..trajectory.final_state import FinalState
 from .rest import Rest, largest_turn, rest_of
 from .start import taken_over
-from .trust import doubts_of
+from .trust import bent_at_clamp, doubts_of
 
 CONTROLLED = "solver.rtol or solver.max_step_s"  # keys of steps that are controlled
 CALL_S = 0.1  # length of a call of machine code; Ctrl-C has an effect only between two calls
@@ -96,7 +96,7 @@ class Run:
         for i, axis in enumerate(axes):
             Y[:, len(axes) + i] = record[f"start_{axis}"] * self.s / self.s[-1]
         self.motion.Y_before[:] = Y
-        state["low"], state["high"] = np.inf, -np.inf
+        state["low"], state["high"], state["foot"] = np.inf, -np.inf, -np.inf
         self._watch()
         # a sudden start has rates at t = 0 that are not zero: steps that need none come first, or the order falls to 1
         needs_rates = record["method"] == col.RUNGE_KUTTA or record["alpha_m"] != record["gamma"]
@@ -213,7 +213,9 @@ class Run:
         """Why the run ended early."""
         steps = CONTROLLED if self.record["adaptive"] else longest_step(self.scene)[0]
         message = advice(self.state, steps)
-        return message if self.rest is None else message + self.rest.fault
+        if self.rest is not None:
+            message += self.rest.fault
+        return "; ".join(filter(None, (message, bent_at_clamp(self))))
 
     def _statistics(self, columns: Columns) -> dict[str, int | float]:
         """What this run has done, without the runs that it went on from."""

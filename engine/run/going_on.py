@@ -64,7 +64,7 @@ def between(a: FinalState, b: FinalState, share: float) -> FinalState:
         return (1.0 - share) * of_a + share * of_b
 
     numbers_a, numbers_b = a.state(), b.state()
-    numbers = {name: float(mixed(numbers_a[name], numbers_b[name])) for name in ("t", "low", "high")}
+    numbers = {name: float(mixed(numbers_a[name], numbers_b[name])) for name in ("t", "low", "high", "foot")}
     numbers["first"] = numbers_a["first"] + numbers_a["samples"] - len(a.samples)
     numbers["samples"] = len(longer)
     samples = mixed(first, second)

@@ -140,10 +140,11 @@ class PeriodMap:
             part = image.samples[:count].copy()
             part[:, col.TIME] += number * run.scene.waves.period_s
             parts.append(part)
-            at_ends.append(image.samples[count, [col.TOP_LOW, col.TOP_HIGH]])
-        for part, (low, high) in zip(parts, [at_ends[-1], *at_ends[:-1]], strict=True):
+            at_ends.append(image.samples[count, [col.TOP_LOW, col.TOP_HIGH, col.FOOT_HIGH]])
+        for part, (low, high, foot) in zip(parts, [at_ends[-1], *at_ends[:-1]], strict=True):
             part[0, col.TOP_LOW] = min(part[0, col.TOP_LOW], low)
             part[0, col.TOP_HIGH] = max(part[0, col.TOP_HIGH], high)
+            part[0, col.FOOT_HIGH] = max(part[0, col.FOOT_HIGH], foot)
         return columns_of(np.concatenate(parts), run.scene)
 
     def _run(self, value: float) -> Idle:
@@ -204,7 +205,8 @@ class PeriodMap:
         C, K = self._unpacked(z)
         Y = self._unknowns(C)
         run.state.fill(0)
-        run.state["steps"], run.state["low"], run.state["high"] = 1, np.inf, -np.inf
+        run.state["steps"], run.state["low"] = 1, np.inf
+        run.state["high"] = run.state["foot"] = -np.inf
         return run, Motion(Y, Y.copy(), C.copy(), K.copy())
 
     def _near(self, z: np.ndarray, value: float, mesh: int) -> Callable:

@@ -52,7 +52,7 @@ def _of_strain_and_rate(p, tables, share, C, K0, K):
     return tension(last_strain(p, C), p, tables)[0] + p.damping * stretching / math.sqrt(square)
 
 
-# tension of the upper end of a state C at the end of a step from the rates K0 to K
+# tension of the last node of a state C at the end of a step from the rates K0 to K
 top_tension = by_kind(_of_strain, _of_strain, extra=_of_strain_and_rate)
 
 

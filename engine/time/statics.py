@@ -25,9 +25,11 @@ from ..spatial import state as spatial
 from .newton import newton
 from .status import IN_THE_AIR, OK, STATICS_FAILED
 
-SOFTEST, FIRST, STIFFEST = 1e-8, 10.0, 1e9
+SOFTEST, FIRST, STIFFEST = 2e-7, 200.0, 2e10  # over the length of the line, on the earth
+EARTH_MPS2 = 9.81
 TOLERANCE = 1e-9
-CLOSE, BALANCED = 1e-6, 1e-9  # a line at rest moves less (m), against a resistance less than this share of its load
+CLOSE, BALANCED = 5e-8, 1e-9  # a line at rest moves less (of its length), against less than this share of its load
+FAR = 0.05  # of its length: a line that moves so far keeps more of its resistance
 MOST = 300  # a stiff line on its way to a clamp passes shear far above its load, by one scale an iteration
 MOST_TURNS = 12  # a bight that the grid does not resolve keeps a folded node
 # in place of a share of its length: a straight line; a held one as a catenary; one that lies on its bed and then rises
@@ -165,7 +167,11 @@ def settle(record: np.void, scene: Scene, tables: np.ndarray, Y: np.ndarray) -> 
     axes = ("end_x", "end_y", "end_z") if space else ("end_x", "end_z")
     velocity = slice(len(axes), 2 * len(axes))
     half = 0.5 * lengths_of(p, tables)[:, None]
-    mu, turns, settled = FIRST, 0, None
+    length_m, weight = scene.tether.length_m, (scene.gravity_mps2 or EARTH_MPS2) / EARTH_MPS2
+    # in proportion to g/L: a model rests as its prototype does
+    softest, first, stiffest = (share * weight / length_m for share in (SOFTEST, FIRST, STIFFEST))
+    close_m = CLOSE * length_m
+    mu, turns, settled = first, 0, None
     for _ in range(400):
         C_tilde[:, : len(axes)] = lift.stretch_vectors(Y)
         if p["end"] == HELD:
@@ -176,18 +182,18 @@ def settle(record: np.void, scene: Scene, tables: np.ndarray, Y: np.ndarray) -> 
                 p[axis] = place
         trial = Y.copy()
         code, _ = newton(p, tables, Stage(0.0, 0.0, 1.0, mu), TOLERANCE, MOST, trial, work)
-        if settled is not None and (code != OK or (mu == 0.0 and np.abs(trial[:, velocity]).max() > CLOSE)):
+        if settled is not None and (code != OK or (mu == 0.0 and np.abs(trial[:, velocity]).max() > close_m)):
             Y[:] = settled  # something is free to turn: with less resistance rounding errors move it
             return OK
         if code != OK:
-            mu = 100.0 * max(mu, SOFTEST)
-            if mu > STIFFEST:
+            mu = 100.0 * max(mu, softest)
+            if mu > stiffest:
                 return STATICS_FAILED
             continue
         moved = np.abs(trial[:, velocity]).max()
         Y[:] = trial
         Y[:, velocity] = 0.0
-        if mu == 0.0 and moved < CLOSE:
+        if mu == 0.0 and moved < close_m:
             folded = Y[:, col.EPS] < 0.0
             if p["bent"] or not folded.any() or turns == MOST_TURNS:
                 return OK
@@ -197,13 +203,13 @@ def settle(record: np.void, scene: Scene, tables: np.ndarray, Y: np.ndarray) -> 
                 lift.turn_back(Y, folded)
             else:
                 Y[folded, col.PHI] += math.pi
-            mu = FIRST
+            mu = first
             turns += 1
             continue
         share = mu * moved * float(p["m"]) * 2.0 * np.sum(half) * float(p["per_force"]) / 20.0
-        if p["bent"] and 0.0 < mu and moved < CLOSE and share < BALANCED:
+        if p["bent"] and 0.0 < mu and moved < close_m and share < BALANCED:
             settled = Y.copy()
-        mu = 0.0 if mu <= SOFTEST else mu * (0.1 if moved < 1.0 else 0.5)
+        mu = 0.0 if mu <= softest else mu * (0.1 if moved < FAR * length_m else 0.5)
     return STATICS_FAILED
 
 

@@ -207,15 +207,17 @@ def sample(p, tables, state, dt, hermite, begin, end, Ys, samples, profiles):
         out[col.RELEASES], out[col.MISSED] = state.releases, max(state.ringing, 0.0)
         out[col.LOWEST], _ = extremes(row[:, col.PLACE + 2])
         out[col.FOOT], out[col.MOST], out[col.MOST_AT] = tensions[0], most, most_at
+        out[col.FOOT_HIGH] = max(state.foot, tensions[0])
         state.ringing = min(state.ringing, 0.0)
-        state.low, state.high = top, top
+        state.low, state.high, state.foot = top, top, tensions[0]
         state.samples += 1
     while state.profiles < profiles.shape[0] and (state.first_profile + state.profiles) * p.profile_step <= until:
         t = (state.first_profile + state.profiles) * p.profile_step
         line_at(p, tables, t - state.t, dt, hermite, begin, end, Ys, profiles[state.profiles])
         state.profiles += 1
-    top = top_tension(p, tables, 1.0 if hermite else 0.5, C1, K0, K1)
-    state.low, state.high = min(state.low, top), max(state.high, top)
+    share = 1.0 if hermite else 0.5
+    top, foot = top_tension(p, tables, share, C1, K0, K1), top_tension(p, tables, share, C1[:1], K0[:1], K1[:1])
+    state.low, state.high, state.foot = min(state.low, top), max(state.high, top), max(state.foot, foot)
 
 
 @kernel

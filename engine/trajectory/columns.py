@@ -29,10 +29,11 @@ COLUMNS = {  # name -> (unit, long name), in the order of the table
     "tension_anchor_N": ("N", "tension at the lower end"),
     "tension_max_N": ("N", "largest tension along the tether"),
     "tension_max_s_m": ("m", "unstretched arc length, from the lower end, at which the tension is largest"),
+    "tension_anchor_high_N": ("N", "largest tension at the lower end over all steps since the previous sample"),
 }
 MEASURED = (  # columns of a sample that are columns of the table as they are, in its order
     col.OFFPLANE, col.TOP, col.LEAST, col.TOP_LOW, col.TOP_HIGH, col.RELEASES, col.LOWEST, col.MISSED,
-    col.FOOT, col.MOST, col.MOST_AT,
+    col.FOOT, col.MOST, col.MOST_AT, col.FOOT_HIGH,
 )  # fmt: skip
 
 STATISTICS = {  # of a trajectory: the fields of STATE that they come from
@@ -66,6 +67,18 @@ def along_waves(heading: float, x: np.ndarray, y: np.ndarray) -> np.ndarray:
 def across_waves(heading: float, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """The component across such waves, to their left, of vectors with components x and y."""
     return y if heading == 0 else np.cos(heading) * y - np.sin(heading) * x
+
+
+def largest_along(columns: Columns, length_m: float) -> tuple[np.ndarray, np.ndarray]:
+    """Largest tension (N) along a line of this length since the sample before, and how far from the anchor (m) it was.
+
+    Steps of the solver count at both ends, where the waves of a snap are reflected and add up; samples count between.
+    """
+    largest_N, places_m = columns["tension_max_N"], columns["tension_max_s_m"]
+    for name, place_m in (("tension_anchor_high_N", 0.0), ("tension_top_high_N", length_m)):
+        larger = columns[name] > largest_N
+        largest_N, places_m = np.where(larger, columns[name], largest_N), np.where(larger, place_m, places_m)
+    return largest_N, places_m
 
 
 def columns_of(samples: np.ndarray, scene: Scene) -> Columns:

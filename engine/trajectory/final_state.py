@@ -86,7 +86,7 @@ class FinalState:
                 profiles = self.profiles
         else:
             begin_s = float(state["t"])
-            numbers = {"releases": 0, "low": np.inf, "high": -np.inf}
+            numbers = {"releases": 0, "low": np.inf, "high": -np.inf, "foot": -np.inf}
         for name in ("t", "window_end", "corner"):
             numbers[name] = state[name] - begin_s
         counts = {"samples": len(samples), "profiles": len(profiles), "first": 0, "first_profile": 0}

@@ -26,6 +26,7 @@ NOT_IN_OLDER_FILES = {  # columns that older files lack, and what is known of th
     "tension_anchor_N": np.nan,
     "tension_max_N": np.nan,
     "tension_max_s_m": np.nan,
+    "tension_anchor_high_N": np.nan,
 }
 
 

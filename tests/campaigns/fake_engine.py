@@ -111,6 +111,7 @@ def sines(
         "unresolved_N": np.zeros_like(t),
         "line_lowest_m": np.zeros_like(t),
         "tension_anchor_N": force - 20.0,
+        "tension_anchor_high_N": force - 10.0,
         "tension_max_N": force,
         "tension_max_s_m": np.full_like(t, scene.tether.length_m),
     }

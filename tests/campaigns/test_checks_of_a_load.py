@@ -74,6 +74,18 @@ def test_a_share_of_the_breaking_load_says_where_the_line_is_pulled_if_not_at_it
 
 
 @pytest.mark.parametrize(
+    ("more", "told"),
+    [({}, True), ({"tension_top_start_N": 1200.0}, False), ({"found_by": "kick"}, False)],
+    ids=["from rest", "little more", "kicked"],
+)
+def test_a_start_up_that_pulls_far_more_than_all_motions_is_told(more, told):
+    """The peak is 1000 N; a kick pulls as hard as it is."""
+    rows = [PULLS, PULLS | {"steepness": 0.05, "tension_top_start_N": 3000.0} | more]
+    text = load(rows, {"steepness": "kA"}, load_scene("tethered_buoy"))
+    assert ("pulls up to 3 kN, kA = 0.05" in text) == told
+
+
+@pytest.mark.parametrize(
     ("name", "row", "changes"),
     [*((name, row, {}) for name, row in KNOWN.items()), *((name, {}, changes) for name, changes in IN_SCENE.items())],
 )

@@ -11,9 +11,8 @@ from engine import simulate
 from engine.record import SAMPLE_WIDTH, TOP_HIGH, TOP_LOW
 from engine.run.period_map import PeriodMap
 from engine.scene import build_scene
-from engine.scene.reference import keys
 from tests.engine.lines import line
-from tests.engine.time.test_similarity import TIME, in_other_units
+from tests.engine.time.test_similarity import OTHER, factor, in_other_units
 
 SMALL = {"tether.nodes": 9, "water.depth_m": 25.0, "solver.rtol": 1e-3}
 AT = 0.13
@@ -66,19 +65,22 @@ def test_it_begins_at_the_strobe_after_a_state_and_goes_where_a_run_does(cable, 
     )
     assert computed["tension_top_high_N"].max() == pytest.approx(last["tension_top_high_N"].max(), rel=2e-3)
     rare = PeriodMap(lambda value: scene_at(value, **{"output.step_s": 5.0}), settled.final_state, AT)
-    for name in ("tension_top_low_N", "tension_top_high_N"):  # one sample has the extremes of all of the period
+    for name in (
+        "tension_top_low_N",
+        "tension_top_high_N",
+        "tension_anchor_high_N",
+    ):  # one sample has the extremes of all of the period
         extreme = np.min if "low" in name else np.max
         assert extreme(rare.history([rare.first], AT)[name]) == pytest.approx(extreme(computed[name]), rel=0.02)
 
 
 def test_what_a_branch_is_measured_in_grows_with_the_scene(cable, settled):
     """A model of the mooring in a tank has the orbits of the mooring, followed in steps of its own size."""
-    units = {key: declared.unit for key, declared in keys().items()}
 
     def model_at(value):
-        return build_scene(in_other_units(scene_at(value).as_dict(), units))
+        return build_scene(in_other_units(scene_at(value).as_dict(), OTHER))
 
-    start = simulate(model_at(AT), duration_s=TIME * settled.final_state.state()["t"]).final_state
+    start = simulate(model_at(AT), duration_s=factor("s", OTHER) * settled.final_state.state()["t"]).final_state
     model = PeriodMap(model_at, start, AT)
     seen = cable.seen.T @ cable.first
     assert model.seen.T @ model.first == pytest.approx(seen, abs=1e-4 * np.abs(seen).max())

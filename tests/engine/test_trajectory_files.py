@@ -48,7 +48,7 @@ def test_the_table_has_the_agreed_columns():
     agreed = (
         "time_s x_m y_m z_m radius_m radius_rate_mps angle_rad angle_rate_radps offplane_m tension_top_N tension_min_N "
         "tension_top_low_N tension_top_high_N loop_releases line_lowest_m unresolved_N "
-        "tension_anchor_N tension_max_N tension_max_s_m"
+        "tension_anchor_N tension_max_N tension_max_s_m tension_anchor_high_N"
     )
     assert list(table.columns) == agreed.split()
     assert len(table) == 3 and len(run_of(0).table()) == 0

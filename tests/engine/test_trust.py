@@ -11,7 +11,7 @@ from engine.parameters.scales import jumps_of
 from engine.run import Idle, Run, companions, trust
 from engine.run.trust import blows, errors_of_ringing, unresolved
 from engine.trajectory.columns import columns_of
-from tests.engine.lines import DRY, STILL, by_table, harmonic, held, kick, line, linear, ran
+from tests.engine.lines import DRY, SPACE, STILL, by_table, harmonic, held, kick, line, linear, ran
 from tests.engine.physics.caps import CAP
 
 RINGING_N, LENGTH_M, EA = 500.0, 20.0, 1e8
@@ -398,3 +398,13 @@ def test_a_slack_fraction_that_is_read_off_too_few_samples_is_told(step_s, told,
     monkeypatch.setattr(companions, "static_tension_N", lambda *_: 100.0)
     words = trust._few_samples(run, {"time_s": time_s, "tension_top_N": np.where(time_s % 0.17 < 0.07, 1000.0, 0.0)})
     assert ("holds to 0.04; lower output.step_s" in words) == told and bool(words) == told
+
+
+@pytest.mark.parametrize(("nodes", "EI", "told"), [(161, 0.4, True), (161, 40.0, False), (41, 0.4, True)])
+def test_a_bend_at_a_clamp_that_the_grid_does_not_resolve_is_told(nodes, EI, told):
+    """A clamp leans by 60 degrees. The line bends within sqrt(EI/T), 14 or 141 mm; elements are 125 or 500 mm long.
+    On 41 nodes a run in waves fails at once.
+    """
+    leaning = {"anchor.rotation": "clamped", "anchor.direction": [0.866, 0.0, 0.5], "waves": None}
+    run = simulate(line(SPACE, leaning, nodes=nodes, bending_stiffness_Nm2=EI), duration_s=0.2)
+    assert ("at a clamp the line bends" in run.message) == told

@@ -8,7 +8,8 @@ from campaigns.explore.proposals import proposals
 from campaigns.machinery.cli import Running
 from campaigns.machinery.plan import Plan
 from engine.physics.waves import wave_number
-from engine.scene import load_scene
+from engine.scene import build_scene, load_scene
+from tests.engine.time.test_similarity import MODEL, factor, in_other_units
 
 COEXISTENCE = {"waves.steepness": 0.106}
 DEPTH_M = 21.0
@@ -47,3 +48,15 @@ def test_a_wetted_cap_in_a_current_has_proposals(tmp_path):
     scene = load_scene("tethered_buoy", {**cap, "current.velocity_mps": [0.2, 0.0, 0.0]})
     (starts,) = proposals(plan, [scene], 6.0, 1)
     assert starts
+
+
+def test_the_kicks_of_a_model_are_those_of_its_prototype(tmp_path):
+    """By Froude's law, as their speeds without --kick-speed."""
+    plan = Plan(Running(tmp_path), engine.simulate, dict, ())
+    scene = load_scene("tethered_buoy", COEXISTENCE)
+    model = build_scene(in_other_units(scene.as_dict(), MODEL))
+    starts, of_model = proposals(plan, [scene, model], None, 1)
+    assert len(starts) == len(of_model) > 0
+    for start, other in zip(starts, of_model, strict=True):
+        np.testing.assert_allclose(np.array(other.kick) / factor("m/s", MODEL), start.kick, rtol=1e-3)
+        np.testing.assert_allclose(np.array(other.displacement) / factor("m", MODEL), start.displacement, rtol=1e-3)

@@ -9,7 +9,10 @@ Samples lie on an even grid that does not depend on the steps, and are as accura
 import numpy as np
 import pytest
 
+from engine.own_mooring.ropes import rope_of
+from engine.own_mooring.scene import Mooring, scene_text
 from engine.run import Run
+from engine.scene import scene_from_toml
 from engine.simd.elementary import strain_within
 from engine.time.integrators import esdirk43, trbdf2
 from engine.time.steps import embedded_error
@@ -136,12 +139,24 @@ def test_a_coarse_grid_is_a_part_of_a_fine_one():
     fine = ran(line(STEEP, {"output.step_s": 0.025}), duration_s=20.0).columns
     coarse = ran(line(STEEP, {"output.step_s": 0.1}), duration_s=20.0).columns
     for name in fine:
-        if name not in ("tension_top_low_N", "tension_top_high_N", "time_s", "angle_rad"):
+        if not name.endswith(("low_N", "high_N")) and name not in ("time_s", "angle_rad"):
             assert np.array_equal(fine[name][::4], coarse[name]), name
     # extremes since the sample before: the fine grid also counts its samples in between, and can only find more
     low, high = (fine[f"tension_top_{name}_N"][1:].reshape(-1, 4) for name in ("low", "high"))
     assert np.all(low.min(axis=1) <= coarse["tension_top_low_N"][1:])
     assert np.all(high.max(axis=1) >= coarse["tension_top_high_N"][1:])
+    at_anchor = fine["tension_anchor_high_N"][1:].reshape(-1, 4).max(axis=1)
+    assert np.all(at_anchor >= coarse["tension_anchor_high_N"][1:])
+
+
+def test_a_snap_between_two_samples_is_seen_at_both_ends_of_the_line():
+    """A stiff rope snaps within a hundredth of the wave period: such samples alone showed 89 % of its pull."""
+    mooring = Mooring(1.19, 10.5, rope_of("hmpe", 0.0311), 10.1, 3.01, 8.61)
+    scene = scene_from_toml(scene_text(mooring, "mine"))
+    dense = scene.with_values("output", step_s=scene.waves.period_s / 3000)
+    for place in ("anchor", "top"):
+        most_N = [run.columns[f"tension_{place}_high_N"].max() for run in (ran(scene, 10), ran(dense, 10))]
+        assert most_N[0] == pytest.approx(most_N[1], rel=0.03)
 
 
 SMOOTH = {
