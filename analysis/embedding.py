@@ -208,8 +208,8 @@ def choose_embedding(series: ArrayLike) -> EmbeddingChoice:
     and stays where the embedding is large enough.
 
     series (n,)       any unit
-    The delay is that of choose_delay. The largest m looked at is 8. It is the answer, and `reason` says so, where
-    neither rule speaks.
+    The delay is that of choose_delay. The largest m looked at is 8, or the last that the record has room for; 8 is the
+    answer, and `reason` says so, where neither rule speaks.
     Returns an EmbeddingChoice. The dimension is the smallest that unfolds the motion; it is not the dimension of the
     attractor, and twice that of the attractor plus one may be needed (Sauer, Yorke & Casdagli 1991).
     Raises ValueError for values that are not finite or a series too short.
@@ -220,7 +220,8 @@ def choose_embedding(series: ArrayLike) -> EmbeddingChoice:
     chosen = choose_delay(x)
     lag, theiler = chosen.delay, round(chosen.mean_period)
     share, growth, change = np.full((3, MOST_DIMENSIONS), np.nan)
-    for m in range(1, MOST_DIMENSIONS + 1):
+    longest = (len(x) - 1) // lag  # delays in the record
+    for m in range(1, min(MOST_DIMENSIONS, longest) + 1):
         separation, radius, next_coordinate = _next_coordinate(x, lag, m, theiler)
         if len(separation):
             driven_away = next_coordinate > FALSE_RATIO * separation

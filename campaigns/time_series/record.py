@@ -15,7 +15,6 @@ import warnings
 from array import array
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from itertools import islice
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -122,8 +121,17 @@ class Table:
     named: bool  # whether the first line has the names
 
     def lines(self) -> Iterator[str]:
-        """The lines of the file below the names."""
-        return islice(_lines(self.path), int(self.named), None)
+        """The lines of the file below the names. An empty one among those of a single column is an empty cell."""
+        row, empty = -int(self.named), 0
+        for line in _lines(self.path):
+            if not line.strip():
+                empty += 1
+                continue
+            if row > 0 and len(self.names) == 1:
+                yield from ['""\n'] * empty
+            if row >= 0:
+                yield line
+            row, empty = row + 1, 0
 
     def rows(self) -> Iterator[list]:
         """The cells of each line. Raises ValueError at the first row with more or fewer cells than there are names."""
@@ -134,10 +142,8 @@ class Table:
             fault = f"{self.path}: row {number} below the names has {len(cells)} cells, the names are {len(self.names)}"
             if self.mark == "," and len(cells) == 2 * len(self.names):
                 raise ValueError(f"{fault}; allowed: numbers with a dot, not a comma, where commas separate columns")
-            shown = ", ".join(self.names)
-            if len(shown) > 60:
-                shown = f"{shown[:57]}..."
-            raise ValueError(f"{fault} ({shown}); allowed: {FORMAT}, above it only lines begun with #")
+            names = _short(", ".join(self.names))
+            raise ValueError(f"{fault} ({names}); allowed: {FORMAT}, above it only lines begun with #")
 
 
 def _numbers(table: Table, places: dict[str, int], faults: list[str]) -> dict[str, np.ndarray]:
@@ -171,9 +177,16 @@ def _numbers(table: Table, places: dict[str, int], faults: list[str]) -> dict[st
         if len(rows) > 1:
             fault += f" (so are {len(rows) - 1} more)"
         allowed = f"finite numbers in every row; {_cure(cell, label, rows)}"
-        faults.append(f"{label}: row {rows[0]} below the names, {cell!r}, {fault}; allowed: {allowed}")
+        faults.append(f"{label}: row {rows[0]} below the names, {_short(cell)!r}, {fault}; allowed: {allowed}")
         values.pop(label, None)
     return {label: np.array(column) for label, column in values.items()}
+
+
+def _short(text: str) -> str:
+    """At most 60 letters of a text."""
+    if len(text) > 60:
+        return f"{text[:57]}..."
+    return text
 
 
 def _cell_fault(cell: str) -> str:
@@ -244,7 +257,7 @@ def _sampling_faults(t: np.ndarray, step: float) -> Iterator[str]:
 
 def read_table(path: Path) -> Table:
     """The table in a file. Raises ValueError, with what is allowed, for a file that has none."""
-    first_line = next(_lines(path), None)
+    first_line = next(filter(str.strip, _lines(path)), None)
     if first_line is None:
         raise ValueError(f"{path}: empty; allowed: {FORMAT}")
     mark = next((mark for mark in ("\t", ";", ",") if mark in first_line), None)
@@ -274,7 +287,7 @@ def _cells(path: Path, lines: Iterable[str], mark: str | None) -> Iterator[list]
 
 
 def _lines(path: Path) -> Iterator[str]:
-    """The lines of a text file, without empty ones and comments.
+    """The lines of a text file, without comments.
 
     Raises ValueError, with what is allowed, for a file that cannot be read or is no text.
     """
@@ -294,8 +307,7 @@ def _lines(path: Path) -> Iterator[str]:
             for line in file:
                 if "\0" in line:
                     raise ValueError(no_text)
-                text = line.strip()
-                if text and not text.startswith("#"):
+                if not line.lstrip().startswith("#"):
                     yield line
     except UnicodeDecodeError:
         raise ValueError(no_text) from None

@@ -36,6 +36,7 @@ from tests.analysis.systems import henon, logistic_step, normal, record, two_ton
 ZEROS, PAIRS, MAP, SNAP = np.zeros(101), np.zeros((50, 2)), OrbitMap(logistic_step), SnapOscillator()
 NATS = Exponent(0.42, 0.01, "nats/time", "known")
 TIME = np.arange(5000.0)
+HALF_A_TURN = np.sin(np.pi * np.arange(700) / 700)
 
 
 def section(series, step_s=0.1, period_s=5.0, **options):
@@ -111,6 +112,8 @@ WITHOUT = [
     ("series that moves", lambda: wolf_lyapunov(np.ones(5000), 1.0)),
     ("200 samples", lambda: wolf_lyapunov(normal(0, 150), 1.0)),
     ("mean periods", lambda: wolf_lyapunov(np.sin(0.01 * TIME), 1.0)),
+    ("mean periods", lambda: wolf_lyapunov(HALF_A_TURN, 1.0)),
+    ("too short", lambda: rosenstein_lyapunov(HALF_A_TURN, 1.0)),
     ("noise", lambda: wolf_lyapunov(normal(0, 5000), 1.0)),
     ("no neighbours", lambda: wolf_lyapunov(np.tile([0.0, 1.0, 3.0, 2.0], 500), 1.0)),
     ("straight", lambda: rosenstein_lyapunov(two_tone(5000), 0.1)),

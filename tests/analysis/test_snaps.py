@@ -138,6 +138,10 @@ def test_a_slack_interval_that_began_before_the_record_has_no_onset_and_one_that
     assert np.isnan(detected.onset_s).tolist() == [True, False] == np.isnan(detected.duration_s).tolist()
 
 
+def test_a_pull_in_which_the_record_ends_counts_up_to_its_last_sample():
+    assert list(detect_snaps([0.0, 0.0, 0.0, 3e3, 4e3], STEP_S, STATIC_N).peak_N) == [4e3]
+
+
 def test_thresholds_are_options():
     tension_N, _ = BY_HAND["a weak pull does not count"]
     counts = [len(detect_snaps(tension_N, STEP_S, STATIC_N, snap_share=share)) for share in (0.06, 1.0, 3.5, 4.5)]

@@ -44,6 +44,15 @@ def test_what_is_there_is_found_and_a_damaged_part_is_computed_again_with_the_sa
     assert untimed([rows(out)["orbits"]]) == untimed([row])
 
 
+@pytest.mark.parametrize(
+    ("exponent", "word"), [(0.41, "chaotic"), (0.39, "neither"), (-0.39, "neither"), (-0.41, "regular")]
+)
+def test_the_motion_has_the_sign_of_an_exponent_of_more_than_two_errors(exponent, word):
+    row = {"part": "exponents", "status": "ok", "lambda_1_bits_per_period": exponent, "lambda_1_bits_error": 0.2}
+    sentence, *_ = oscillator.answer(oscillator.read_order([], []), [row | {"starts": 9, "elsewhere": 0}])
+    assert sentence.startswith(f"The motion is {word}")
+
+
 @pytest.mark.slow
 def test_parts_beside_each_other_give_the_same_numbers(out, tmp_path):
     alone = made(tmp_path / "alone", "--jobs", "1")

@@ -301,6 +301,22 @@ def test_what_is_no_plain_number_is_refused_by_its_row_wherever_it_stands(tmp_pa
     assert line.startswith(f"--column x: row {row} below the names, {cell!r}, is") and "allowed: finite numbers" in line
 
 
+def test_of_a_quotation_that_does_not_end_only_the_begin_is_shown(tmp_path):
+    _, (line,) = read(tmp_path, '0,"1\n' + "1,2\n" * 500, time=None)
+    assert "row 1 below the names, '1\\n" in line and len(line) < 200
+
+
+def test_an_empty_line_among_the_numbers_of_a_single_column_is_an_empty_cell(tmp_path):
+    """Spreadsheets write an empty cell so: without it, the later samples would come too early."""
+    path, numbers, faults = tmp_path / "table", "1\n2\n" * 60, []
+    path.write_text(f"x\n\n{numbers}\n\n")
+    assert len(read_record(str(path), None, None, 0.5, faults).values) == 120 and not faults
+    for text, row in ((f"x\n{numbers}\n{numbers}", 121), (f"1\n\n{numbers}", 2)):
+        path.write_text(text)
+        read_record(str(path), None, None, 0.5, faults)
+        assert f"row {row} below the names, '', is empty" in faults.pop()
+
+
 def test_separators_at_the_end_of_a_line_are_no_columns(tmp_path):
     """Loggers end their lines with them."""
     (tmp_path / "table").write_text("time_s;x;;\n" + "".join(f"{0.1 * k:.1f};{k % 7};;\n" for k in range(200)))

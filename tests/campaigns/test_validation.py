@@ -77,6 +77,17 @@ def test_a_record_in_waves_repeats_from_its_second_period_on(case, beginning_kN)
     assert later < digitising and later < whole
 
 
+def test_largest_tensions_a_tenth_above_those_measured_differ_by_ten_per_cent():
+    case, runs, t = CASES["lindahl-maxima"], [], np.linspace(0.0, 60.0, 6001)
+    measured_N = {(period, radius): largest for period, radius, largest in families.table("lindahl_maxima.csv")}
+    for job in case.jobs():
+        motion = job.scene.end.motion
+        tension_N = np.full_like(t, 1.1 * measured_N[motion.period_s, motion.radius_m])
+        columns = {"time_s": t, "tension_top_N": tension_N, "tension_top_high_N": tension_N}
+        runs.append(SimpleNamespace(scene=job.scene, columns=columns))
+    assert families.measured_maxima(case, runs).numbers["maxima, mean size"].error == pytest.approx(10.0)
+
+
 def test_the_peak_of_a_sine_is_found_between_the_lines_of_a_spectrum():
     t = np.arange(0.0, 100.0, 0.05)
     power = np.abs(np.fft.rfft(np.hanning(len(t)) * np.sin(2 * np.pi * 0.3137 * t))) ** 2
