@@ -172,6 +172,7 @@ class Study:
     options: type[cli.Options] = cli.Options  # that it adds
     places: tuple[str, ...] = tuple(cli.PLACES)  # options that say where its runs are done
     strict: bool = False  # whether a row that is not ok is exit code 1
+    counted: str = "runs"  # what its last lines count
     parameters: Callable[[Order], Mapping[str, object]] = no_parameters  # in its provenance, beside those of scenes
     answer: Callable[[Order, Rows], Iterable[str]] | None = None  # the rows of table.csv, in eight sentences
 

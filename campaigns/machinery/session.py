@@ -140,7 +140,7 @@ def conduct(study, order, argv: list[str], parameters: dict) -> int:
                 keep_finished(how.out, key, summary)
             summary.times["report_s"] = time.perf_counter() - start_of_report
         summary.times["total_s"] = time.perf_counter() - start
-    code = printed(partial(print_summary, how, summary, answer, fault))
+    code = printed(partial(print_summary, how, summary, study.counted, answer, fault))
     if study.strict and _failures(summary):
         return EXIT_FAILED
     return code
@@ -259,16 +259,16 @@ def machine() -> dict:
     return {"processor": processor, "cores": cores}
 
 
-def print_summary(how: Running, summary: Summary, answer: list[str], fault: str) -> int:
+def print_summary(how: Running, summary: Summary, counted: str, answer: list[str], fault: str) -> int:
     """Print the answer, what was done, where it is and where the time went; returns the exit code.
 
-    fault: why there is no report.
+    counted: what the summary counts, as "runs"; fault: why there is no report.
     """
     out, times = how.out, summary.times
     for head, line in zip(["answer", *[""] * MOST_LINES], answer, strict=False):
         print(line if line[:4].isupper() else f"{head:<9}{line}")
     count = summary.computed + summary.found
-    print(f"runs     {count}: {summary.computed} computed, {summary.found} found")
+    print(f"{counted:<9}{count}: {summary.computed} computed, {summary.found} found")
     failed = _failures(summary)
     if failed:
         reasons = ", ".join(f"{status} {count}" for status, count in sorted(failed.items()))

@@ -276,6 +276,7 @@ STUDY = Study(
     name="orbits",
     protocol=__doc__,
     scene="tethered_buoy",
+    counted="tasks",
     in_waves=True,
     options=Options,
     cases=cases,
