@@ -89,9 +89,7 @@ def _visits(cell: Row, options) -> str:
         return "Motions of regular waves were left out."
     share, forecast = cell["large_share"], cell["forecast_share"]
     if not math.isfinite(share):
-        return (
-            "In no regular wave up to 1.86 H_s were a small and a large motion found, so neither has a share."
-        )
+        return "In no regular wave up to 1.86 H_s were a small and a large motion found, so neither has a share."
     words = f"It is in the large motion {_percent(share)} of the time"
     if share > 0.0:
         words += f", for {cell['large_mean_periods']:.0f} periods on average"
