@@ -16,7 +16,7 @@ or ends, its branch ends. Nothing is random.
 
 import re
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -28,7 +28,7 @@ from campaigns.judge import job_from
 from campaigns.machinery import Job, Plan, Summary, claimed, cli, run_of
 from campaigns.study import Measures, Order, Study
 from engine.views import LONGEST_PERIOD
-from tables import Rows, any_rows, number_of, read_table
+from tables import Row, Rows, any_rows, number_of, read_table
 
 USUAL, VALUES, BUDGET = "waves.steepness 0.05 0.16", 9, 700
 ORBITS, BRANCHES = 60, 8
@@ -196,7 +196,7 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
 
     options = order.options
     (key,) = options.grid.keys
-    times = Counter()
+    times, at_ends = Counter(), []
     if options.start_from is not None:
         starts = [*_under_file(order, jobs[0])]
     else:
@@ -206,13 +206,15 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
         with claimed(folder):
             without_kicks = Search(order, 0, None, 1)
             times = motions.every_motion(plan.within(folder), jobs, without_kicks).times
-        starts = [*_under_motions(order, folder)]
+        starts = [*_under_motions(order, folder, lambda rows: rows[len(rows) // 2 :][:1])]
+        at_ends = [*_under_motions(order, folder, lambda rows: (rows[0], rows[-1]))]
     low, high = key.values[0], key.values[-1]
     _, value, _, state = [*starts, ("", low, 0, None)][0]
     line = Line(Scenes(jobs[0].scene, key), low, high, high - low, state, value)
     tree = Tree(plan, line, options.orbits, options.branches)
     if starts:
         tree.grow(starts)
+        tree.grow(tree.beyond(at_ends))
         tree.across([value for _, value, _, _ in starts])
         if not options.no_accuracy:
             tree.refine()
@@ -225,8 +227,11 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
     return Summary(rows, tree.there, tree.computed, times)
 
 
-def _under_motions(order: Order, folder) -> Iterator[tuple]:
-    """For every period of every motion its letter, a value in the middle of where it is found, and a state there."""
+def _under_motions(order: Order, folder, choice: Callable[[list[Row]], Sequence[Row]]) -> Iterator[tuple]:
+    """Letter, value, period and state of every motion in some rows of each of its periods.
+
+    choice: which of the rows in which a motion has a period, in the order of their values.
+    """
     (key,) = order.options.grid.keys
     rows_of = {}  # by letter and period
     for row in read_table(folder / "table.csv"):
@@ -234,10 +239,10 @@ def _under_motions(order: Order, folder) -> Iterator[tuple]:
         if row["status"] == "ok" and 1 <= period <= LONGEST_PERIOD and order.options.motion in (None, row["motion"]):
             rows_of.setdefault((str(row["motion"]), int(period)), []).append(row)
     for (letter, period), rows in rows_of.items():
-        row = rows[len(rows) // 2]
-        run = run_of(folder, row)
-        if run is not None and run.final_state is not None:
-            yield letter, number_of(row, key.column.name), period, run.final_state.at_zero()
+        for row in choice(rows):
+            run = run_of(folder, row)
+            if run is not None and run.final_state is not None:
+                yield letter, number_of(row, key.column.name), period, run.final_state.at_zero()
 
 
 def _under_file(order: Order, job: Job) -> Iterator[tuple]:

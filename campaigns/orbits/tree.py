@@ -101,6 +101,21 @@ class Tree:
             self.failed.append((seed, f"not followed: {self.room} branches are (--branches)"))
         self.failed = [failure for failure in self.failed if "leads_to" not in failure[0].begins]
 
+    def beyond(self, starts: Sequence[tuple]) -> list[tuple]:
+        """Runs (as of `grow`) at values that no stable orbits of their motion span, though it has a branch.
+
+        One letter may stand for motions on several parts of a branch, or on several branches: the folds between them
+        lie between the values of the search.
+        """
+        missed = []
+        for start in starts:
+            motion, value, period, _ = start
+            branches = [branch for branch in self.branches if motion in branch.motions]
+            branches = [branch for branch in branches if branch.orbits[0]["period"] == period]
+            if branches and not any(_is_stable_at(branch, value) for branch in branches):
+                missed.append(start)
+        return missed
+
     def _next(self, seeds: Sequence[Seed]) -> tuple[list[Seed], list[Seed]]:
         """Seeds that are followed side by side, and the others.
 
@@ -261,6 +276,15 @@ def _crossings(branch: Branch, value: float) -> list[int]:
         if low <= value < high:
             places.append(place)
     return places
+
+
+def _is_stable_at(branch: Branch, value: float) -> bool:
+    """Whether stable orbits of a branch span a value."""
+    for ahead, behind in pairwise(branch.orbits):
+        low, high = sorted((ahead["value"], behind["value"]))
+        if low <= value <= high and all(abs(complex(*orbit["multipliers"][0])) <= 1.0 for orbit in (ahead, behind)):
+            return True
+    return False
 
 
 def _apart(orbit: dict, other: dict, size: float, rounds: int = 1) -> float:

@@ -60,6 +60,7 @@ class Variant:
     def changes(self, kick_mps: Sequence[float]) -> dict:
         """The keys of the scene that make it this variant. kick_mps: velocity at the start without a push."""
         keys = {
+            "waves.amplitude_m": None,
             "waves.steepness": self.steepness,
             "water.depth_m": self.depth_m,
             "tether.bending_stiffness_Nm2": self.bending_stiffness_Nm2,

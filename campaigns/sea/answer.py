@@ -50,7 +50,8 @@ def _memory(cell: Row, options) -> str:
     if not sign:
         memory = "the starts were not seen to come together"
         if math.isfinite(periods):
-            memory = f"the starts come together after about {_rounded(periods)} periods in {seas - apart_seas:.0f} seas"
+            met = count(int(seas - apart_seas), "sea")
+            memory = f"the starts come together after about {_rounded(periods)} periods in {met}"
         return f"There is no exponent, because no run carries a perturbation for long enough; {memory}."
     if sign != "−":
         decides = "longer runs (--hours) or more seas (--seeds) decide"
@@ -64,7 +65,7 @@ def _memory(cell: Row, options) -> str:
     if not math.isfinite(periods):
         return (
             f"In this sea small differences of the start die out, but the {options.starts} starts were still apart at "
-            f"the end in all {seas:.0f} seas: there is more than one response."
+            "the end in every sea: there is more than one response."
         )
     words = f"In this sea the buoy forgets how it began after about {_rounded(periods)} periods"
     if apart_seas > 0:
@@ -88,7 +89,7 @@ def _visits(cell: Row, options) -> str:
         return "Motions of regular waves were left out."
     share, forecast = cell["large_share"], cell["forecast_share"]
     if not math.isfinite(share):
-        return "No regular wave up to 1.86 H_s has a small and a large motion, so there is no large motion to visit."
+        return "In no regular wave up to 1.86 H_s were a small and a large motion found, so neither has a share."
     words = f"It is in the large motion {_percent(share)} of the time"
     if share > 0.0:
         words += f", for {cell['large_mean_periods']:.0f} periods on average"

@@ -93,7 +93,7 @@ def test_an_own_scene_runs_in_its_own_wave_and_from_its_own_kick(tmp_path):
 def test_a_sentence_of_the_paper_is_judged_in_its_waves_only(tmp_path):
     place = tmp_path / "out"
     assert made(place, 12) and len(rows_of(place, "statements.csv")) > 3
-    assert ran(out_of_plane, place, "--periods", 12, "--set", "waves.steepness=0.1", simulate=SpaceEngine())
+    assert ran(out_of_plane, place, "--periods", 12, "--set", "waves.amplitude_m=0.6", simulate=SpaceEngine())
     assert not rows_of(place, "statements.csv") and report(place)
 
 

@@ -24,6 +24,7 @@ KICKED = kick(w=4.0)
     [
         (4.5, {}, "steepest seas in nature"),
         (0.1, {"waves.period_s": 1.6}, "no diffraction"),
+        (1.0, {"water.depth_m": 20.0}, "'zero' stops the water"),
         (
             1.5,
             {"water.depth_m": 21.0, "waves.above_still_water": "extrapolate", "waves.period_s": 4.0} | KICKED,
@@ -41,6 +42,10 @@ def test_extrapolated_waves_are_told_by_the_height_above_still_water_and_not_abo
     scene = line({**USUAL, "water.depth_m": 22.0}, {"waves.jonswap": {"significant_height_m": 1.0}}, above)
     (words,) = trust._sea(Idle(scene, 1.0), {"z_m": np.array([20.0, 21.0])})
     assert words.startswith("1 m above still water")
+
+
+def test_a_buoy_that_comes_above_still_water_is_no_doubt_where_the_water_moves_there():
+    assert "still water" not in message(1.0, **{"water.depth_m": 20.0, "waves.above_still_water": "wheeler"})
 
 
 def test_a_usual_sea_is_not_doubted_but_in_a_long_run():
