@@ -25,11 +25,11 @@ from ..spatial import state as spatial
 from .newton import newton
 from .status import IN_THE_AIR, OK, STATICS_FAILED
 
-SOFTEST, FIRST, STIFFEST = 2e-7, 200.0, 2e10  # over the length of the line, on the earth
-EARTH_MPS2 = 9.81
+SHORT_M = 20.0  # a shorter line meets more resistance, and moves less, in proportion: it rests as one of this length
+SOFTEST, FIRST, STIFFEST = 1e-8, 10.0, 1e9
 TOLERANCE = 1e-9
-CLOSE, BALANCED = 5e-8, 1e-9  # a line at rest moves less (of its length), against less than this share of its load
-FAR = 0.05  # of its length: a line that moves so far keeps more of its resistance
+CLOSE, BALANCED = 1e-6, 1e-9  # a line at rest moves less (m), against a resistance less than this share of its load
+FAR_M = 1.0  # a line that moves so far keeps more of its resistance
 MOST = 300  # a stiff line on its way to a clamp passes shear far above its load, by one scale an iteration
 MOST_TURNS = 12  # a bight that the grid does not resolve keeps a folded node
 # in place of a share of its length: a straight line; a held one as a catenary; one that lies on its bed and then rises
@@ -167,10 +167,8 @@ def settle(record: np.void, scene: Scene, tables: np.ndarray, Y: np.ndarray) -> 
     axes = ("end_x", "end_y", "end_z") if space else ("end_x", "end_z")
     velocity = slice(len(axes), 2 * len(axes))
     half = 0.5 * lengths_of(p, tables)[:, None]
-    length_m, weight = scene.tether.length_m, (scene.gravity_mps2 or EARTH_MPS2) / EARTH_MPS2
-    # in proportion to g/L: a model rests as its prototype does
-    softest, first, stiffest = (share * weight / length_m for share in (SOFTEST, FIRST, STIFFEST))
-    close_m = CLOSE * length_m
+    size = min(scene.tether.length_m / SHORT_M, 1.0)
+    softest, first, stiffest, close_m = SOFTEST / size, FIRST / size, STIFFEST / size, CLOSE * size
     mu, turns, settled = first, 0, None
     for _ in range(400):
         C_tilde[:, : len(axes)] = lift.stretch_vectors(Y)
@@ -209,7 +207,7 @@ def settle(record: np.void, scene: Scene, tables: np.ndarray, Y: np.ndarray) -> 
         share = mu * moved * float(p["m"]) * 2.0 * np.sum(half) * float(p["per_force"]) / 20.0
         if p["bent"] and 0.0 < mu and moved < close_m and share < BALANCED:
             settled = Y.copy()
-        mu = 0.0 if mu <= softest else mu * (0.1 if moved < FAR * length_m else 0.5)
+        mu = 0.0 if mu <= softest else mu * (0.1 if moved < FAR_M * size else 0.5)
     return STATICS_FAILED
 
 

@@ -5,6 +5,7 @@ eq. (30), is there. A sphere that is partly out of the water has too much buoyan
 much: with two thirds of a buoy of 4 m dry, a sea of H_s = 6 m pulled with 308 kN in place of 447 kN (docs/scenes.md).
 """
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -24,6 +25,10 @@ CAP = "'spherical-cap' loads what is below the wave"
 BED = (
     "the line was up to {most:.2g} m below the bed (first at t = {first:.5g} s), because the scene has no floor: "
     "floor.stiffness_Npm3 = 1e5 adds one"
+)
+SINKS = (
+    "the buoy is up to {most:.2g} m under the bed (first at t = {first:.5g} s), because it sinks: it has a mass of "
+    "{mass:.5g} kg and displaces {displaced:.5g} kg of water; lower buoy.mass_kg"
 )
 EMERGES = 0.05  # share of its diameter by which a sphere is out of the water: 0.7 % of its volume
 
@@ -67,6 +72,15 @@ def excursions_of(scene: Scene, columns: Columns) -> Iterator[str]:
         yield words + CAP
     elif share is not None and share > EMERGES:
         yield PART.format(share=100.0 * share) + CAP
+    buoy = scene.buoy
+    if buoy is not None:
+        displaced_kg = scene.water.density_kgpm3 * math.pi * buoy.diameter_m**3 / 6.0
+        below = -scene.anchor.position_m[2] - columns["z_m"]
+        hanging = below > 0.5 * buoy.diameter_m
+        if buoy.mass_kg > displaced_kg and hanging.any():
+            masses = {"mass": buoy.mass_kg, "displaced": displaced_kg}
+            yield SINKS.format(most=below[hanging].max(), first=time_s[hanging][0], **masses)
+            return
     depth = -scene.anchor.position_m[2] - columns["line_lowest_m"]
     buried = depth > scene.tether.diameter_m
     if scene.floor is None and buried.any():

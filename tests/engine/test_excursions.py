@@ -109,6 +109,16 @@ def test_a_line_below_the_bed_is_told_with_its_depth_where_there_is_no_floor():
         assert (f"up to {depth} below the bed" in words and "floor" in words) if depth else words == ""
 
 
+@pytest.mark.parametrize(
+    ("mass_kg", "anchor_m", "told"), [(1900.0, 0.0, True), (1900.0, 40.0, False), (1700.0, 0.0, False)]
+)
+def test_a_buoy_that_sinks_below_the_bed_is_told_and_no_floor_is_advised(mass_kg, anchor_m, told):
+    """It displaces 1815 kg of water, and hangs 20 m below its anchor; a floor would leave it without a rest."""
+    changes = {"waves": None, "buoy.mass_kg": mass_kg, "anchor.position_m": [0.0, 0.0, anchor_m]}
+    message = ran(line(changes, {"water.depth_m": 65.0}), duration_s=0.2).message
+    assert ("because it sinks" in message) == told and "floor" not in message
+
+
 def test_parts_of_a_run_say_together_what_the_whole_says_once():
     """Read from files too: those of older versions have the excursions in the message alone."""
     scene = line({"tether.nodes": 11})
