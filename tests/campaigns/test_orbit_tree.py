@@ -111,6 +111,21 @@ def test_a_branch_between_two_flips_is_followed_once_and_both_lead_to_it(tmp_pat
     assert sorted(float(flip["a"]) for flip in flips) == pytest.approx([-(0.1**0.5), 0.1**0.5], abs=1e-2)
 
 
+def parted(z, a):
+    """x -> x + 0.2 (a^2 - 0.1 - x^2): fixed points at |a| > sqrt(0.1) only, where two folds begin a branch each."""
+    x, y = z
+    return np.array([x + 0.2 * (a * a - 0.1 - x * x), B * y]), lambda vectors: np.diag([1.0 - 0.4 * x, B]) @ vectors
+
+
+def test_a_motion_beyond_the_branch_of_its_letter_has_a_branch_of_its_own(tmp_path):
+    """The search carries one letter across both folds; from the middle of its values one branch alone is followed."""
+    middle, low, high = (("A", a, 1, np.array([[(a * a - 0.1) ** 0.5, 0.0]])) for a in (0.45, -0.45, 0.5))
+    tree = grown(tmp_path, starts=[middle], line=HenonLine(low=-0.5, high=0.5, step=parted))
+    assert len(tree.branches) == 1 and tree.beyond([low, high]) == [low]
+    tree.grow(tree.beyond([low, high]))
+    assert [branch.motions for branch in tree.branches] == [["A"], ["A"]] and tree.beyond([low, high]) == []
+
+
 def test_a_branch_that_meets_no_flip_in_reach_leads_none(tmp_path):
     tree = Tree(Plan(Running(tmp_path, 1), None, None, ()), HenonLine(), 1, 1)
     seen = np.array([[1.0, 0.0], [1.1, 0.0]])
