@@ -119,7 +119,8 @@ def _load(cell: Row) -> str:
 def _storm(cell: Row) -> str:
     storm_N = cell["storm_maximum_N"]
     if not math.isfinite(storm_N):
-        return f"no three-hour maximum: {cell['storm_reason']}."
+        largest = kilonewton(cell["largest_N"])
+        return f"largest tension of the runs from rest {largest}; no three-hour maximum: {cell['storm_reason']}."
     words = (
         f"most probable three-hour maximum {kilonewton(storm_N)} (90 % interval {cell['storm_low_N'] / 1e3:.3g} to "
         f"{cell['storm_high_N'] / 1e3:.3g}) in a sea of H_s = {cell['significant_height_m']:.3g} m"

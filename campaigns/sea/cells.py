@@ -74,6 +74,7 @@ COLUMNS = (
     SNAPS,
     Column("snaps_per_hour_error", "1/h", "± snaps", f"standard error over seas{_REST}", 1),
     MEAN,
+    Column("largest_N", "N", "T_max", f"largest tension after the transient{_REST}", 0),
     Column("storm_maximum_N", "N", "T_3h", "most probable largest tension in three hours", 0),
     Column("storm_low_N", "N", "T_3h low", "lower end of its 90 % interval", 0),
     Column("storm_high_N", "N", "T_3h high", "upper end of its 90 % interval", 0),
@@ -340,7 +341,7 @@ def _loads(rest: Sequence[Digest], options) -> Row:
         row["snaps_per_hour_error"] = standard_error(rates)
     highs_N, scene = [run.high_N for run in rest], rest[0].scene
     storm = storm_maximum(highs_N, scene.sample_step_s(), least_block_s=BLOCK_PERIODS * scene.waves.period_s)
-    row["storm_reason"] = storm.reason
+    row |= {"largest_N": max(high_N.max() for high_N in highs_N), "storm_reason": storm.reason}
     if storm.found:
         row |= {"storm_maximum_N": storm.value, "storm_low_N": storm.low, "storm_high_N": storm.high}
         breaking_N = options.breaking_load or scene.tether.breaking_load_N

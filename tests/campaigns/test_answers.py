@@ -61,8 +61,9 @@ OPTIONS = sea.Options(starts=4, slope=5.0, window=10, distance=0.05, no_regular=
 
 def test_nothing_is_said_of_an_interval_that_there_is_not():
     """Without a three-hour maximum; nor of one motion each, where the motions of a wave pull about alike."""
-    cell = SEA | {"storm_maximum_N": math.nan, "storm_reason": "few blocks", "load_scatter": 0.2}
+    cell = SEA | {"storm_maximum_N": math.nan, "storm_reason": "few blocks", "load_scatter": 0.2, "largest_N": 9.1e3}
     words = "\n".join(of_sea([cell | {"large_share": math.nan}], OPTIONS))
+    assert "9.1 kN" in words and "few blocks" in words
     assert "differ by 20 %" in words and "interval" not in words and "one motion each" not in words
 
 
