@@ -143,8 +143,9 @@ def test_all_starts_of_a_sea_have_the_same_waves(small):
 def test_the_row_of_the_sea_says_what_its_runs_say(small):
     out, rows = small
     (cell,) = rows_of(out, "cells/table.csv")
-    rates = [float(row["snaps_per_hour"]) for row in rows if row["start"] == "0" and not row["solver"]]
-    assert float(cell["snaps_per_hour"]) == pytest.approx(np.mean(rates))
+    from_rest = [row for row in rows if row["start"] == "0" and not row["solver"]]
+    assert float(cell["snaps_per_hour"]) == pytest.approx(np.mean([float(row["snaps_per_hour"]) for row in from_rest]))
+    assert float(cell["largest_N"]) == pytest.approx(max(float(row["tension_top_max_N"]) for row in from_rest))
     assert float(cell["significant_height_m"]) == pytest.approx(1.0)
     history = rows_of(out, "history/table.csv")
     assert {row["responses"] for row in history} <= {"1", "2", "3"}
