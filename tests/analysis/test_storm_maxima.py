@@ -102,6 +102,11 @@ def test_the_interval_by_order_ends_where_five_in_a_hundred_lie_beyond():
     assert below.cdf(answer.high - 1) < 0.95 <= below.cdf(answer.high)
 
 
+def test_no_block_is_shorter_than_the_least():
+    blocks_s = [storm_maximum([normal(1, 700)], STEP_S, least_block_s=least_s).block_s for least_s in (55.0, 56.0)]
+    assert blocks_s[0] == 55.0 and blocks_s[1] > 56.0
+
+
 def test_too_little_is_refused():
     answer = storm_maximum([normal(1, 700)], STEP_S, least_block_s=1000.0)
     assert not answer.found and answer.reason

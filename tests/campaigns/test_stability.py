@@ -71,7 +71,7 @@ def test_verdicts(case, verdict, status):
     row = case_row(case)
     assert (row["verdict"], row["run_status"]) == (verdict, status), row
     assert row["status"] == ("unexplained" if verdict == "unexplained" else "ok")
-    assert set(row) <= set(names(cases.COLUMNS))
+    assert row["dimensions"] == 2 and set(row) <= set(names(cases.COLUMNS))
     assert row["message"] or status == "ok"
 
 

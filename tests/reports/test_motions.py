@@ -14,9 +14,9 @@ from reports.buoy_sweep.figures import orbit_figure
 from reports.buoy_sweep.runs import read_sweep
 from reports.buoy_sweep.sheets import explorer as explorer_of
 from reports.figures.quantities import colours_of, panels_over
-from reports.parts.content import Explorer, Heading, Sheet, Table, plain
+from reports.parts.content import Explorer, Heading, Sheet, Table, Text, plain
 from reports.parts.style import VERMILION
-from reports.sweep.report import _maps_of_each
+from reports.sweep.report import _maps_of_each, _panels
 from tables import Column
 from tests.campaigns.conftest import rows_of
 from tests.reports.conftest import of_kind, panel_of, points_of, write
@@ -164,6 +164,8 @@ def test_a_sweep_of_any_key_keeps_motions_and_failed_runs_apart(drawn):
     first = drawn[0].axes[0]
     assert (first.get_xlabel(), first.get_ylabel()) == ("kA (–)", "H (–)")
     assert first.images[0].get_array().tolist() == [[1.0, 2.0, 3.0]]
+    for quantities in (shown, []):  # it says that there is nothing to draw only then
+        assert bool(of_kind(_panels(key, rows, quantities, motions), Text)) == (not quantities)
 
 
 @pytest.mark.slow

@@ -15,7 +15,7 @@ from scipy.spatial.distance import pdist
 
 from engine import load_scene
 from reports import build, content_of
-from reports.figures.regime_map import HATCHES, Map, Page, regime_maps
+from reports.figures.regime_map import HATCHES, Map, Page, regime_maps, widest
 from reports.parts.content import CellSheets, Figure, Table
 from reports.parts.folder import FolderError, read_folder
 from reports.parts.html import packed
@@ -171,6 +171,10 @@ def test_regimes_are_told_apart_by_every_eye(eyes):
     xyz = [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]]
     x, y, z = np.cbrt(seen @ np.transpose(xyz) / np.sum(xyz, axis=1)).T
     assert pdist(np.column_stack([116 * y, 500 * (x - y), 200 * (y - z)])).min() > 12.0
+
+
+def test_of_places_of_one_width_a_word_stands_in_the_middle():
+    assert widest(np.ones((3, 9), bool)) == (1, 4)
 
 
 def test_every_cell_on_top_has_its_sheet_with_its_motions_and_their_series(folder_of):
