@@ -13,6 +13,7 @@ from pathlib import Path
 from tables import FAILS, PEAK, STATEMENTS, Row, Rows, any_rows, listed, number_of, typed, verdict_counts
 
 CHAOS_OF_ONE_GRID = "Chaos was found on one grid of the line; campaigns.sweep over a key looks on a finer one."
+SMALL_N = 10.0  # below it a force is told in newtons
 NOTHING_LASTS = {"LOAD": "not known, because no run lasts beyond the transient."}
 
 
@@ -46,9 +47,12 @@ def lines(texts: Mapping[str, str]) -> list[str]:
     return [line(word, text) for word, text in texts.items() if text]
 
 
-def kilonewton(force_N: float) -> str:
-    """ "9.45 kN"; without an exponent, "1234 kN"."""
-    return f"{typed(force_N / 1e3, 3)} kN"
+def kilonewton(*forces_N: float, digits: int = 3) -> str:
+    """ "9.45 kN"; without an exponent, "1234 kN"; of several "4.4 -> 9.4 kN"; of a model in a tank "0.594 N"."""
+    unit, unit_N = "kN", 1e3
+    if max(map(abs, forces_N)) < SMALL_N:
+        unit, unit_N = "N", 1.0
+    return f"{' -> '.join(typed(force_N / unit_N, digits) for force_N in forces_N)} {unit}"
 
 
 def verdicts(folder: Path, quoted: int) -> Iterator[str]:

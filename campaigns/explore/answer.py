@@ -241,7 +241,7 @@ def _swings(below: Row, above: Row) -> str:
 
 def _change(before: Row, after: Row) -> str:
     """ "4.4 -> 9.4 kN"."""
-    return f"{typed(before[PEAK] / 1e3, 2)} -> {typed(after[PEAK] / 1e3, 2)} kN"
+    return kilonewton(before[PEAK], after[PEAK], digits=2)
 
 
 def motions(rows: Rows, key: str, symbol: str) -> str:

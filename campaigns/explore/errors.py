@@ -244,7 +244,7 @@ def error_N(row: dict, usual_N: float, companion: dict) -> tuple[float, list]:
     error = largest_N - usual_N + 2.0 * abs(again_N - usual_N) + (row.get(RINGING.name) or 0.0)
     error, words = max(error, LEAST * largest_N), []
     if companion[OUTCOME.name] == UNSETTLED:
-        words.append(f"{CHANGED} it {OTHER_MOTION}: largest tensions {kilonewton(usual_N)} -> {kilonewton(again_N)}")
+        words.append(f"{CHANGED} it {OTHER_MOTION}: largest tensions {kilonewton(usual_N, again_N)}")
     if error > COARSE * largest_N:
         words.append(f"the largest tension holds to {100.0 * error / largest_N:.0f} % only")
     return error, words

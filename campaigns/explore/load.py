@@ -121,7 +121,7 @@ def largest(row: Row) -> str:
     """ "9.45 kN (± 0.12 kN by grid and steps)", without the error where that is not known."""
     text, error = kilonewton(row[PEAK]), number_of(row, PEAK_ERROR)
     if math.isfinite(error):
-        text += f" (± {typed(error / 1e3, 2)} kN by grid and steps)"
+        text += f" (± {kilonewton(error, digits=2)} by grid and steps)"
     return text
 
 

@@ -122,8 +122,8 @@ def _storm(cell: Row) -> str:
         largest = kilonewton(cell["largest_N"])
         return f"largest tension of the runs from rest {largest}; no three-hour maximum: {cell['storm_reason']}."
     words = (
-        f"most probable three-hour maximum {kilonewton(storm_N)} (90 % interval {cell['storm_low_N'] / 1e3:.3g} to "
-        f"{cell['storm_high_N'] / 1e3:.3g}) in a sea of H_s = {cell['significant_height_m']:.3g} m"
+        f"most probable three-hour maximum {kilonewton(storm_N)} (90 % interval {kilonewton(cell['storm_low_N'])} to "
+        f"{kilonewton(cell['storm_high_N'])}) in a sea of H_s = {cell['significant_height_m']:.3g} m"
     )
     regular_N, regular_high_N, used = cell["regular_N"], cell["regular_high_N"], cell["utilisation"]
     if math.isfinite(regular_N):

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from campaigns import sea
+from campaigns.answers import kilonewton
 from campaigns.basins.answer import sentences as of_basins
 from campaigns.orbits.answer import sentences as of_orbits
 from campaigns.regime_map.answer import _use as largest_usable
@@ -112,7 +113,7 @@ def test_more_hours_are_advised_for_seas_that_are_open_not_for_runs_that_failed(
 
 def test_a_sea_is_told_with_intervals_and_what_a_finer_run_and_the_steps_leave_open():
     answer = "\n".join(of_sea([SEA], OPTIONS))
-    assert answer.startswith("LOAD     most probable three-hour maximum 12 kN (90 % interval 11 to 14)")
+    assert answer.startswith("LOAD     most probable three-hour maximum 12 kN (90 % interval 11 kN to 14 kN)")
     assert all(words in answer for words in ANSWERS["sea"]["words"])
     sure = "\n".join(of_sea([SEA | {"finer_bits_per_period": -0.09, "noise": 0.001, "load_scatter": 0.04}], OPTIONS))
     assert "finer runs agrees" in sure and "differ by" not in sure and "by the steps" not in sure
@@ -146,3 +147,16 @@ def test_a_sweep_in_a_sea_names_where_the_tension_varies_least_and_most():
     scene = load_scene("tethered_buoy", {"waves.jonswap.significant_height_m": 1.0})
     (tension,) = (line for line in of_sweep_in_a_sea(rows, {"kA": "kA"}, scene) if line.startswith("TENSION"))
     assert tension.endswith("mean 5 kN to 6 kN; standard deviation 0.3 kN at kA = 0.2 to 0.8 kN at kA = 0.1.")
+
+
+@pytest.mark.parametrize(
+    ("forces_N", "words"),
+    [
+        ((9450.0,), "9.45 kN"),
+        ((4400.0, 9400.0), "4.4 -> 9.4 kN"),
+        ((0.594,), "0.594 N"),
+        ((3.0, 12.0), "0.003 -> 0.012 kN"),
+    ],
+)
+def test_a_force_of_a_model_is_told_in_newtons(forces_N, words):
+    assert kilonewton(*forces_N) == words
