@@ -29,7 +29,6 @@ MUCH = 0.5  # share of the energy of a sea
 MANY = 8  # waves from which on a sea is meant to be random
 STEEPEST = math.pi / 15.0  # k H_s/2 of seas in nature (DNV-RP-C205, 3.5.4: H_s is at most 1/15 of the length)
 FASTER = 1.2  # times the speed at still water, to which waves are extrapolated
-OFTEN = 0.05  # share of the time above still water from which waves that end there decide the load
 BENT = 0.5  # turn (rad) in an element at rest below which a finer grid has the same tension within 1 %
 LONGER = 2.0  # elements at a clamp, than the bend of the line there, have another tension by more than a hundredth
 SLACK_ERROR = 0.03  # two standard deviations of a slack fraction: a smaller error is not told
@@ -253,7 +252,7 @@ def _regular_waves(run):
 
 
 def _sea(run, columns):
-    """Says of a sea what its laws do not cover: short or steep waves, those above still water, few for a long run."""
+    """Says of a sea what its laws do not cover: short or steep waves, extrapolated ones, too few for a long run."""
     scene = run.scene
     if not run.record["sea_n"]:
         return
@@ -281,13 +280,6 @@ def _sea(run, columns):
             yield (
                 f"{above_m:.2g} m above still water, where the upper end was, extrapolated waves are {faster:.2g} "
                 "times as fast as at its level: waves.above_still_water = 'wheeler' or 'zero' bounds them"
-            )
-    if waves.above_still_water == "zero" and scene.buoy is not None:
-        above = float(np.mean(scene.anchor.position_m[2] + columns["z_m"] > depth))
-        if above > OFTEN:
-            yield (
-                f"the middle of the sphere was above still water for {100 * above:.0f} % of the time, where 'zero' "
-                "stops the water: compare waves.above_still_water = 'wheeler', which may double the tension"
             )
     measured = waves.record is not None
     spacings = len(omega) - int(measured)  # those of a drawn sea lie anywhere in equal parts of a band

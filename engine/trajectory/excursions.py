@@ -30,6 +30,11 @@ SINKS = (
     "the buoy is up to {most:.2g} m under the bed (first at t = {first:.5g} s), because it sinks: it has a mass of "
     "{mass:.5g} kg and displaces {displaced:.5g} kg of water; lower buoy.mass_kg"
 )
+STOPS = (
+    "the middle of the sphere was above still water for {share:.0f} % of the time, where 'zero' stops the water: "
+    "compare waves.above_still_water = 'wheeler', which may double the tension"
+)
+OFTEN = 0.05  # share of the time above still water from which waves that end there decide the load
 EMERGES = 0.05  # share of its diameter by which a sphere is out of the water: 0.7 % of its volume
 
 
@@ -72,7 +77,11 @@ def excursions_of(scene: Scene, columns: Columns) -> Iterator[str]:
         yield words + CAP
     elif share is not None and share > EMERGES:
         yield PART.format(share=100.0 * share) + CAP
-    buoy = scene.buoy
+    buoy, waves = scene.buoy, scene.waves
+    if buoy is not None and waves is not None and waves.irregular and waves.above_still_water == "zero":
+        above = float(np.mean(scene.anchor.position_m[2] + columns["z_m"] > scene.water.depth_m))
+        if above > OFTEN:
+            yield STOPS.format(share=100.0 * above)
     if buoy is not None:
         displaced_kg = scene.water.density_kgpm3 * math.pi * buoy.diameter_m**3 / 6.0
         below = -scene.anchor.position_m[2] - columns["z_m"]

@@ -56,7 +56,7 @@ def excursions(scene, columns):
     return "; ".join(excursions_of(scene, columns))
 
 
-SEA = {"waves.jonswap": {"significant_height_m": 1.0, "seed": 1}}
+SEA = {"waves.jonswap": {"significant_height_m": 1.0, "seed": 1}, "waves.above_still_water": "wheeler"}
 SEAS = [
     {},
     {"waves.direction_rad": math.pi},
