@@ -234,8 +234,8 @@ def _swings(below: Row, above: Row) -> str:
     swings = [number_of(row, "radius_max_m") - number_of(row, "radius_min_m") for row in (below, above)]
     slack = [100.0 * number_of(row, "slack_fraction") for row in (below, above)]
     return (
-        f"the swing of r goes from {swings[0]:.2f} to {swings[1]:.2f} m, and the time with less than 5 % of the static "
-        f"tension from {slack[0]:.0f} to {slack[1]:.0f} %"
+        f"the swing of r goes from {swings[0]:.2f} to {swings[1]:.2f} m, and the time in which the line is slack from "
+        f"{slack[0]:.0f} to {slack[1]:.0f} %"
     )
 
 

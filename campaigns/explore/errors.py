@@ -22,9 +22,9 @@ the companion had less than a quarter of the error, where chance does not decide
 The companion of a chaotic row, and of a periodic one whose line goes slack, carries a perturbation: a slack line may be
 chaotic on few elements and not on many, or the other way round, while the buoy repeats.
 
-All are of the motion of the row. `message` says where its companion leaves that motion, where E is above COARSE of
-T_max, where E_slack is above SLACK_COARSE and chi' further from chi than the stretches scatter, and where the growth of
-the perturbation contradicts the regime (`analysis.growth_contradicts`).
+All are of the motion of the row. `message` says where its companion leaves that motion, if it has settled, where E is
+above COARSE of T_max, where E_slack is above SLACK_COARSE and chi' further from chi than the stretches scatter, and
+where the growth of the perturbation contradicts the regime (`analysis.growth_contradicts`).
 Rows of runs in three dimensions stay empty.
 """
 
@@ -64,6 +64,7 @@ from tables import (
     RUN_KEY,
     STATUS,
     TANGENT_EXPONENT,
+    TRANSIENT,
     UNSETTLED,
     WALL_S,
     Column,
@@ -151,7 +152,7 @@ def _companion(plan: Plan, row: dict) -> _Companion | None:
     if period:
         length = max(REPEATING, 3 * period)
     length = max(length, periods_of_growth)
-    if row.get("regime"):
+    if row.get("regime") not in (None, "", TRANSIENT):
         motion = reached(run, orbits)
     length = min(length, round(row["periods"]))
     job = job_from({"of_run": row["run_key"]}, scene, length, run.final_state.at_zero())

@@ -48,7 +48,8 @@ def load(rows: Rows, keys: Mapping[str, str], scene, companions: Rows = ()) -> s
         if _is_below_the_top(peak, peak):
             words[0] += f" ({_in_the_line(peak)})"
     words += [of_motion(peak), place_of(peak, keys), str(peak.get("regime") or "")]
-    sentences = [f"{', '.join(filter(None, words))}.{_below_the_top(rows, peak, keys)}{_start_up(rows, peak, keys)}"]
+    elsewhere = _below_the_top(rows, peak, keys) + _start_up(rows, peak, keys, scene)
+    sentences = [f"{', '.join(filter(None, words))}.{elsewhere}"]
     if scene is None:
         return sentences[0]
     if not any(reasons(peak, scene)):
@@ -88,13 +89,20 @@ def _below_the_top(rows: Rows, peak: Row, keys: Mapping[str, str]) -> str:
     return f" Below its top the line bears up to {_in_the_line(most)}, {place_of(most, keys)}."
 
 
-def _start_up(rows: Rows, peak: Row, keys: Mapping[str, str]) -> str:
+def _start_up(rows: Rows, peak: Row, keys: Mapping[str, str], scene) -> str:
     """The largest tension of runs from rest before they have settled, with a space in front, where it is far above the
-    peak."""
+    peak or breaks a line that the peak does not break."""
     most = greatest([row for row in rows if from_rest(row)], "tension_top_start_N")
-    if most is None or not most["tension_top_start_N"] > VIOLENT * peak[PEAK]:
+    if most is None:
         return ""
-    pull = kilonewton(most["tension_top_start_N"])
+    start_N, least_N = most["tension_top_start_N"], VIOLENT * peak[PEAK]
+    pull, strength_N = kilonewton(start_N), scene and scene.tether.breaking_load_N
+    if strength_N:
+        pull += f", {typed(100.0 * start_N / strength_N, 2)} % of the breaking load"
+        if strength_N > peak[PEAK]:
+            least_N = min(least_N, strength_N)
+    if not start_N > least_N:
+        return ""
     return f" Before it has settled a run from rest pulls up to {pull}, {place_of(most, keys)}."
 
 

@@ -86,6 +86,17 @@ def test_a_start_up_that_pulls_far_more_than_all_motions_is_told(more, told):
 
 
 @pytest.mark.parametrize(
+    ("start_N", "peak_N", "told"), [(1200.0, 1000.0, True), (1080.0, 1000.0, False), (1800.0, 1200.0, True)]
+)
+def test_a_start_up_tells_its_share_of_the_breaking_load_which_it_may_exceed_alone(start_N, peak_N, told):
+    """The line breaks at 1100 N: a start-up above that is told though it is little above the peak."""
+    scene = load_scene("tethered_buoy", {"tether.breaking_load_N": 1100.0})
+    row = PULLS | {PEAK: peak_N, "tension_top_start_N": start_N, "utilisation": peak_N / 1100.0}
+    words = f"pulls up to {start_N / 1e3:g} kN, {100.0 * start_N / 1100.0:.0f} % of the breaking load, kA = 0.1"
+    assert (words in load([row], {"steepness": "kA"}, scene)) == told
+
+
+@pytest.mark.parametrize(
     ("name", "row", "changes"),
     [*((name, row, {}) for name, row in KNOWN.items()), *((name, {}, changes) for name, changes in IN_SCENE.items())],
 )

@@ -127,6 +127,14 @@ def companion_of(run, regime, monkeypatch, **entries):
     return state, errors._companion(SimpleNamespace(out=None), row | entries)
 
 
+@pytest.mark.parametrize(("regime", "compared"), [("transient", False), ("undecided", True), ("period-1", True)])
+def test_a_companion_of_a_motion_that_still_changes_is_not_called_another_motion(regime, compared, monkeypatch):
+    """The motion changes on its own grid too."""
+    _, companion = companion_of(sines(load_scene("tethered_buoy"), 180), regime, monkeypatch)
+    described = companion.job.describe(sines(load_scene("tethered_buoy"), REPEATING, radius=(20.0, 4.0)))
+    assert (described.get("outcome") == UNSETTLED) == compared
+
+
 @pytest.mark.parametrize(
     ("regime", "exponent", "slack", "periods"),
     [
