@@ -221,8 +221,10 @@ def _from_rest(rows: Rows, key: str, symbol: str, ended: bool) -> str:
             return ""
         change = max(map(itemgetter(0), pairs))
         verdict = "none"
-        if len(pairs) < LEAST_PAIRS and change > LEAST_JUMP:
-            verdict = f"not told by fewer than {LEAST_PAIRS + 1} values"
+        if change > LEAST_JUMP:
+            verdict = "none stands out"
+            if len(pairs) < LEAST_PAIRS:
+                verdict = f"not told by fewer than {LEAST_PAIRS + 1} values"
         return f"{verdict}: the largest tension changes by a factor of {math.exp(change):.2g} between values at most."
     _, below, above = large[0]
     place = "There" if len(words) == 1 else "At the largest"
