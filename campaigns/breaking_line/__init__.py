@@ -55,6 +55,7 @@ def cases(order: Order) -> Iterator[Job]:
     kind: "case"; "doubled" (twice the elements); "stiffness" (case 4, doubled, with another EI); without gravity on an
     even grid up to the arrival of the front, "straight" (fine) and "series" (grid by grid).
     """
+    order.tell(*_own_break(order))
     plain = {}
     for case in order.options.cases:
         scene = order.scene(_changes(order, case, {}), LENGTHS_S[case[0]])
@@ -81,6 +82,19 @@ def cases(order: Order) -> Iterator[Job]:
         yield from _straight(order, case, scene)
     for case in plain:
         yield _run(order, case, "doubled", finer[case])
+
+
+def _own_break(order: Order) -> Iterator[str]:
+    """Faults of a scene with a break of its own, which the cases would replace."""
+    scene = order.base()
+    if scene is None:
+        return
+    force_N, decay_s = scene.end.force_N, scene.end.force_decay_s
+    if force_N is not None and force_N[0] not in FORCES_N.values():
+        allowed = ", ".join(f"{force:g}" for force in FORCES_N.values())
+        yield f"end.force_N: given {force_N[0]:g} N along x; allowed: that of a case, {allowed}; use --cases"
+    if decay_s not in (None, FAST_S, SLOW_S):
+        yield f"end.force_decay_s: given {decay_s:g}; allowed: that of a case, {FAST_S:g} or {SLOW_S:g}; use --cases"
 
 
 def _run(order: Order, case: str, kind: str, changes: dict, duration_s: float = 0.0) -> Job:

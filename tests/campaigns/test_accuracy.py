@@ -13,7 +13,7 @@ from campaigns.accuracy.plan import ADAPTIVE, BY_NAME, FULL, ORDERS, phases
 from campaigns.accuracy.rows import COLUMNS, point_row, rms_mm
 from campaigns.machinery.plan import Job
 from engine import load_scene
-from reports.accuracy.report import _settings, cheapest, read_study, smooth_series, within, work_items
+from reports.accuracy.report import _settings, cheapest, per_period, read_study, smooth_series, within, work_items
 from reports.parts.content import Table
 from tables import names
 from tests.campaigns.conftest import built_twice, chosen, ran, rows_of
@@ -143,6 +143,14 @@ def test_a_setting_is_shown_by_the_medians_of_its_rounds():
     rounds = [row | {"error": error, "wall_s": 0.1 * error} for error in (1.0, 9.0, 2.0)]
     (shown,) = _settings([*rounds, row | {"status": "newton-failed", "error": math.nan, "wall_s": 77.0}])
     assert (shown.error, shown.wall_s, shown.failed) == (2.0, pytest.approx(0.2), 1)
+
+
+def test_a_time_of_a_run_is_shown_as_milliseconds_of_a_wave_period_or_of_the_whole_run(out):
+    works = {"waves": {"period_s": 5.0, "duration_s": 20.0}, "break": {"period_s": 1.0, "duration_s": 0.12}}
+    study = read_study(out)._replace(works=works)
+    (of_waves, _), (of_a_break, _) = per_period(study, "waves"), per_period(study, "break")
+    assert 2.0 * of_waves == pytest.approx(500.0)  # 2 s for four wave periods
+    assert 2.0 * of_a_break == pytest.approx(2000.0)
 
 
 def test_the_line_of_a_diagram_joins_what_nothing_cheaper_beats():

@@ -56,9 +56,11 @@ def changed(row, text):
     return table([*ROWS[:row], text, *ROWS[row + 1 :]])
 
 
+BREAK = (ROOT / "engine" / "scenes" / "breaking_line.toml").read_text(encoding="utf-8")
 FILES = TABLES["files"] | {
     "utf16.toml": 'name = "mine"\n'.encode("utf-16"),
     "latin1.toml": '# Schäkel\nname = "mine"\n'.encode("latin-1"),
+    "break.toml": BREAK.replace("force_N = [450000.0", "force_N = [2e5").replace("decay_s = 0.005", "decay_s = 0.02"),
     "nan.csv": changed(7, "0.700,nan"),
     "gap.csv": changed(7, "0.700,"),
     "word.csv": changed(7, "0.700,broken"),
