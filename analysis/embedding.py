@@ -37,7 +37,7 @@ MOST_DIMENSIONS = 8
 CENTRES = 2000
 NOISE_CENTRES = 400
 NOISE_REACH = 3
-LEAST_LEVELS = 16
+LEAST_LEVELS = 16  # different values of a record in steps
 OFF_A_STEP = 0.01  # share of a step by which a value may miss a multiple of it: rounding of numbers
 
 
@@ -308,7 +308,7 @@ def noise_level(series: ArrayLike, delay: int) -> float:
 
 
 def recorded_step(series: np.ndarray) -> float:
-    """The step in which the values (n,) of a series were recorded: all are multiples of it beside the least.
+    """The step in which a series (n,) was recorded: each value lies a whole number of such steps above the least one.
 
     0 where there is none, or where fewer than LEAST_LEVELS values differ: these may be the points of a short period.
     """

@@ -47,7 +47,7 @@ def lines(texts: Mapping[str, str]) -> list[str]:
     return [line(word, text) for word, text in texts.items() if text]
 
 
-def kilonewton(*forces_N: float, digits: int = 3) -> str:
+def in_newtons(*forces_N: float, digits: int = 3) -> str:
     """ "9.45 kN"; without an exponent, "1234 kN"; of several "4.4 -> 9.4 kN"; of a model in a tank "0.594 N"."""
     unit, unit_N = "kN", 1e3
     if max(map(abs, forces_N)) < SMALL_N:

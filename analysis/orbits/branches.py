@@ -127,7 +127,8 @@ class _Follower:
     def one_way(self, first, step):
         """Places after the first; events between them; why they end; whether they come back to the first."""
         places, events, closed, reason = [first], [], False, f"followed over {self.limit} orbits"
-        before, short = [], step  # events that were known before each step; steps are looked into that are longer
+        events_before = []  # how many events were known before each step
+        first_step = step  # a longer one is halved where two zeros may lie in it
         follower, wide = self, 1.0
         while len(places) <= self.limit:
             last, closing = places[-1], None
@@ -141,11 +142,11 @@ class _Follower:
                     reason = f"meets the orbit of period {last.orbit.period // 2}"
                     break
                 turn, length = self._turn(*places[-2:], place)
-                if length > short:
+                if length > first_step:
                     step = 0.5 * length
                     if turn < 0.0:
                         places.pop()
-                        del events[before.pop() :]
+                        del events[events_before.pop() :]
                     continue
                 if len(places) > 2:
                     closing = _come_back(self.system, first, last, place)
@@ -156,13 +157,13 @@ class _Follower:
                 if step < self.least and isinstance(why, NotSolved) and wide < WIDEST:
                     wide *= WIDER
                     follower, places[-1] = follower._widened(last, WIDER)
-                    step = short
+                    step = first_step
                 elif step < self.least:
                     reason = f"at {last.orbit.parameter:.6g} no step above {self.least:g} succeeds: {why}"
                     break
                 continue
             places.append(place)
-            before.append(len(events))
+            events_before.append(len(events))
             events += between
             if closing:
                 closed = True
@@ -173,9 +174,9 @@ class _Follower:
                 break
             if easy:
                 step = min(step * GROW, self.longest)
-            if wide > 1.0 and step > short:
+            if wide > 1.0 and step > first_step:
                 follower, places[-1] = follower._widened(place, 1.0 / wide)
-                wide, step = 1.0, short
+                wide, step = 1.0, first_step
         return places[1:], events, reason, closed
 
     def _widened(self, place, by):
@@ -214,9 +215,11 @@ class _Follower:
         return Place(orbit, change, rate, slopes), solved.iterations <= FEW
 
     def _turn(self, *places):
-        """Where a test function seems to be zero twice between neighbours of three places, by the parabola through its
-        values there: below 0 between the first two, above 0 between the last two; and how far these are apart. 0, 0: it
-        does not."""
+        """Where a test function may be zero twice between two neighbours of three places; 0, 0 where it is not.
+
+        It is judged by the parabola through its values. Returns its turning point, counted from the second place (below
+        0: between the first two), and how far apart the two neighbours are.
+        """
         if len(places) < 3:
             return 0.0, 0.0
         steps = []

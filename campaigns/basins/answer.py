@@ -4,7 +4,7 @@ import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 
-from campaigns.answers import CHAOS_OF_ONE_GRID, greatest, kilonewton
+from campaigns.answers import CHAOS_OF_ONE_GRID, greatest, in_newtons
 from campaigns.basins.grid import COLUMNS, PHASE
 from campaigns.explore.load import use_of
 from campaigns.explore.motions import from_rest
@@ -61,7 +61,7 @@ def _of_motion(row: Row) -> str:
     name = row["motion"]
     if from_rest(row):
         name = f"{name} from rest"
-    return f"{name} ({row.get('regime') or row['status']}, {kilonewton(row[PEAK])})"
+    return f"{name} ({row.get('regime') or row['status']}, {in_newtons(row[PEAK])})"
 
 
 def _shares(rows: Rows, motions: Rows) -> str:
@@ -153,7 +153,7 @@ def _edge(edge: Row) -> Iterator[str]:
     kind = "a motion without a period up to 16"
     if math.isfinite(period):
         kind = f"a motion of period {period:.0f}"
-    pull, growth = kilonewton(edge[PEAK]), edge["growth_bits_per_period"]
+    pull, growth = in_newtons(edge[PEAK]), edge["growth_bits_per_period"]
     yield (
         f"Between {edge['motion']} and {edge['other']} lies {kind} that no start keeps ({pull}): runs leave it by "
         f"{growth:.2g} bits a period."

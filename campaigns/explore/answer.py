@@ -22,7 +22,7 @@ from operator import itemgetter
 from statistics import median
 
 from analysis.looks import BLURRED, OF_STEPS
-from campaigns.answers import NOTHING_LASTS, greatest, kilonewton, known_rows, lasting, lines, numbers_of
+from campaigns.answers import NOTHING_LASTS, greatest, in_newtons, known_rows, lasting, lines, numbers_of
 from campaigns.explore.load import load, place_of
 from campaigns.explore.motions import from_rest
 from campaigns.explore.multipliers import UNSTABLE
@@ -128,7 +128,7 @@ def snaps(rows: Rows, key: str, symbol: str) -> str:
             words += f" at {symbol} = {_at(snapping, members, key)}"
         largest = greatest(snapping, "snap_peak_max_N")
         if largest is not None:
-            words += f", up to {kilonewton(largest['snap_peak_max_N'])}"
+            words += f", up to {in_newtons(largest['snap_peak_max_N'])}"
         motions.append(f"{letter}: {words}" if letter else words)
     if not motions:
         return "none: the tension never comes back from slack."
@@ -143,7 +143,7 @@ def snap_peaks(rows: Rows, keys: Mapping[str, str]) -> str:
     """The peaks where they are largest, the speed and the slack; keys: what is varied, by column, with its symbol."""
     parts, hardest = [], greatest(rows, "snap_peak_max_N")
     if hardest is not None:
-        middle, high, most = (kilonewton(number_of(hardest, f"snap_peak_{name}_N")) for name in ("median", "95", "max"))
+        middle, high, most = (in_newtons(number_of(hardest, f"snap_peak_{name}_N")) for name in ("median", "95", "max"))
         words = f"At {place_of(hardest, keys)} median {middle}, 95 % below {high}, largest {most}"
         rise_s = number_of(hardest, "snap_rise_s")
         if math.isfinite(rise_s):
@@ -243,7 +243,7 @@ def _swings(below: Row, above: Row) -> str:
 
 def _change(before: Row, after: Row) -> str:
     """ "4.4 -> 9.4 kN"."""
-    return kilonewton(before[PEAK], after[PEAK], digits=2)
+    return in_newtons(before[PEAK], after[PEAK], digits=2)
 
 
 def motions(rows: Rows, key: str, symbol: str) -> str:
@@ -332,7 +332,7 @@ def starts(rows: Rows, key: str, symbol: str, scene) -> str:
     other = "the motion from rest" if from_rest(usual) else f"motion {usual['motion']}"
     return (
         f"{sentence}. At {symbol} = {typed(worst[key])}, {kicks} kicks{interval} end in motion {worst['motion']}, "
-        f"which pulls {kilonewton(worst[PEAK])}; {other} pulls {kilonewton(usual[PEAK])}."
+        f"which pulls {in_newtons(worst[PEAK])}; {other} pulls {in_newtons(usual[PEAK])}."
     )
 
 

@@ -39,7 +39,7 @@ from analysis import block_maxima, growth_contradicts, remains, tangent_lyapunov
 from analysis.approaches import NEARER
 from analysis.snaps import NEAR_ZERO
 from analysis.tangent_growth import turned
-from campaigns.answers import kilonewton
+from campaigns.answers import in_newtons
 from campaigns.explore.batches import batch
 from campaigns.explore.multipliers import orbit_ahead
 from campaigns.explore.rows import ERROR, SLACK, SLACK_ERROR, TANGENT, exponents
@@ -245,7 +245,7 @@ def error_N(row: dict, usual_N: float, companion: dict) -> tuple[float, list]:
     error = largest_N - usual_N + 2.0 * abs(again_N - usual_N) + (row.get(RINGING.name) or 0.0)
     error, words = max(error, LEAST * largest_N), []
     if companion[OUTCOME.name] == UNSETTLED:
-        words.append(f"{CHANGED} it {OTHER_MOTION}: largest tensions {kilonewton(usual_N, again_N)}")
+        words.append(f"{CHANGED} it {OTHER_MOTION}: largest tensions {in_newtons(usual_N, again_N)}")
     if error > COARSE * largest_N:
         words.append(f"the largest tension holds to {100.0 * error / largest_N:.0f} % only")
     return error, words

@@ -6,7 +6,7 @@ A tension is doubted where the model says more than it knows (`reasons`).
 import math
 from collections.abc import Iterable, Iterator, Mapping
 
-from campaigns.answers import greatest, kilonewton, known_rows
+from campaigns.answers import greatest, in_newtons, known_rows
 from campaigns.explore.motions import from_rest
 from engine.natural_frequencies import natural_frequencies
 from engine.trajectory.excursions import EMERGES
@@ -57,7 +57,7 @@ def load(rows: Rows, keys: Mapping[str, str], scene, companions: Rows = ()) -> s
     sentences.append(use_of(peak, scene, is_searched(peak, rows, keys)))
     capped = greatest([row for row in companions if row["status"] == "ok" and row["role"] == CAPPED], PEAK)
     if capped is not None:
-        sentences.append(f"With the {CAPPED} at most {kilonewton(capped[PEAK])}.")
+        sentences.append(f"With the {CAPPED} at most {in_newtons(capped[PEAK])}.")
     usable = greatest([row for row in rows if not any(reasons(row, scene))], PEAK)
     if usable is not None:
         place = ", ".join(filter(None, (largest(usable), of_motion(usable), place_of(usable, keys))))
@@ -76,7 +76,7 @@ def _is_below_the_top(row: Row, peak: Row) -> bool:
 def _in_the_line(row: Row) -> str:
     """ "0.152 kN, 0 m from the anchor": the largest tension along the line and its place."""
     place_m = typed(number_of(row, "tension_line_max_s_m"))
-    return f"{kilonewton(number_of(row, 'tension_line_max_N'))}, {place_m} m from the anchor"
+    return f"{in_newtons(number_of(row, 'tension_line_max_N'))}, {place_m} m from the anchor"
 
 
 def _below_the_top(rows: Rows, peak: Row, keys: Mapping[str, str]) -> str:
@@ -96,8 +96,10 @@ def _start_up(rows: Rows, peak: Row, keys: Mapping[str, str], scene) -> str:
     if most is None:
         return ""
     start_N, least_N = most["tension_top_start_N"], VIOLENT * peak[PEAK]
-    pull, strength_N = kilonewton(start_N), scene and scene.tether.breaking_load_N
-    if strength_N:
+    pull, strength_N = in_newtons(start_N), None
+    if scene is not None:
+        strength_N = scene.tether.breaking_load_N
+    if strength_N is not None:
         pull += f", {typed(100.0 * start_N / strength_N, 2)} % of the breaking load"
         if strength_N > peak[PEAK]:
             least_N = min(least_N, strength_N)
@@ -127,9 +129,9 @@ def of_motion(row: Row) -> str:
 
 def largest(row: Row) -> str:
     """ "9.45 kN (± 0.12 kN by grid and steps)", without the error where that is not known."""
-    text, error = kilonewton(row[PEAK]), number_of(row, PEAK_ERROR)
+    text, error = in_newtons(row[PEAK]), number_of(row, PEAK_ERROR)
     if math.isfinite(error):
-        text += f" (± {kilonewton(error, digits=2)} by grid and steps)"
+        text += f" (± {in_newtons(error, digits=2)} by grid and steps)"
     return text
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from itertools import groupby
 
-from campaigns.answers import kilonewton, numbers_of
+from campaigns.answers import in_newtons, numbers_of
 from tables import PEAK, WHOLE_BRANCH, Column, Row, count, listed, number_of, typed
 
 NONE = "No periodic motion has an orbit that could be found: {}."
@@ -135,7 +135,7 @@ def _between(orbits: Sequence[Row], key: Column) -> Iterator[str]:
         for row in group:
             name = row["branch"] or f"{number_of(row, 'period'):.0f}"
             words = stable if _is_stable(row) else unstable
-            words.append(f"period {name} ({kilonewton(number_of(row, PEAK))}, {multiplier(row)})")
+            words.append(f"period {name} ({in_newtons(number_of(row, PEAK))}, {multiplier(row)})")
         if unstable and stable:
             at = f"{key.symbol} = {typed(value)}"
             yield f"At {at} stable: {listed(stable)}; unstable, and between: {listed(unstable)}."

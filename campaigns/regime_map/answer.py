@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import filterfalse
 from operator import itemgetter
 
-from campaigns.answers import CHAOS_OF_ONE_GRID, greatest, kilonewton, line, numbers_of
+from campaigns.answers import CHAOS_OF_ONE_GRID, greatest, in_newtons, line, numbers_of
 from campaigns.explore.grid import place_in
 from campaigns.explore.load import reasons, use_of
 from campaigns.regime_map.tables import RATIO
@@ -91,7 +91,7 @@ def _regimes(computed: Rows, motions: Rows, keys: Columns) -> Iterator[str]:
 
 def _peak(peak: Row, motions: Rows, keys: Columns) -> str:
     """The largest tension of the map, and how many kicks of its cell lead to it."""
-    pull = f"{kilonewton(peak[PEAK])}, {peak[RATIO.name]:.3g} times that at rest"
+    pull = f"{in_newtons(peak[PEAK])}, {peak[RATIO.name]:.3g} times that at rest"
     sentence = f"largest tension {pull}, at {_at(peak, keys)}"
     motions_of_cell = [row for row in motions if place_in(row, keys) == place_in(peak, keys)]
     kicks = of_kicks(greatest(motions_of_cell, PEAK) or {})
@@ -109,7 +109,7 @@ def _use(motions: Rows, keys: Columns, scene: Callable) -> Iterator[str]:
     usable = next(filterfalse(lambda row: [*reasons(row, scene(row))], by_tension), None)
     sentence = use_of(peak, scene(peak), searched=math.isfinite(number_of(peak, "share")))
     if usable is not None and usable is not peak:
-        pull = kilonewton(usable[PEAK])
+        pull = in_newtons(usable[PEAK])
         sentence += f" Largest without these faults: {pull}, at {_at(usable, keys)}."
     yield sentence
 

@@ -143,6 +143,7 @@ def cases(order: Order) -> Iterator[Job]:
             allowed = f"a buoy in irregular waves, as with --set {HEIGHT}=2"
             order.tell(f"campaigns.sea: given {order.name!r} as it is; allowed: {allowed}")
             return
+        # in a map, a sea of width 0 stands beside seas that are drawn
         drawn = _seed_key(scene) is not None or (scene.waves.relative_width == 0.0 and options.grid.keys)
         options.one_sea = not drawn
         if options.seeds is None:

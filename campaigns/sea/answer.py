@@ -4,7 +4,7 @@ import math
 from collections import Counter
 from collections.abc import Iterator
 
-from campaigns.answers import greatest, kilonewton, line
+from campaigns.answers import greatest, in_newtons, line
 from campaigns.explore.load import OVERBUOYANT
 from campaigns.sea.cells import WELL_ABOVE
 from engine.trajectory.excursions import EMERGES
@@ -119,11 +119,11 @@ def _load(cell: Row) -> str:
 def _storm(cell: Row) -> str:
     storm_N = cell["storm_maximum_N"]
     if not math.isfinite(storm_N):
-        largest = kilonewton(cell["largest_N"])
+        largest = in_newtons(cell["largest_N"])
         return f"largest tension of the runs from rest {largest}; no three-hour maximum: {cell['storm_reason']}."
     words = (
-        f"most probable three-hour maximum {kilonewton(storm_N)} (90 % interval {kilonewton(cell['storm_low_N'])} to "
-        f"{kilonewton(cell['storm_high_N'])}) in a sea of H_s = {cell['significant_height_m']:.3g} m"
+        f"most probable three-hour maximum {in_newtons(storm_N)} (90 % interval {in_newtons(cell['storm_low_N'])} to "
+        f"{in_newtons(cell['storm_high_N'])}) in a sea of H_s = {cell['significant_height_m']:.3g} m"
     )
     regular_N, regular_high_N, used = cell["regular_N"], cell["regular_high_N"], cell["utilisation"]
     if math.isfinite(regular_N):
@@ -137,7 +137,7 @@ def _storm(cell: Row) -> str:
 
 def _fatigue(cell: Row, options) -> str:
     return (
-        f"one cycle of {kilonewton(cell['equivalent_load_N'])} a peak period does the damage of the sea "
+        f"one cycle of {in_newtons(cell['equivalent_load_N'])} a peak period does the damage of the sea "
         f"(S-N slope {options.slope:g})."
     )
 
@@ -181,7 +181,7 @@ def _of_map(cells: Rows, of_all: int, options) -> Iterator[str]:
     yield f"{words}."
     for name, quantity, in_print in (
         ("large_share", "share of the large motion", _percent),
-        ("storm_maximum_N", "three-hour maximum", kilonewton),
+        ("storm_maximum_N", "three-hour maximum", in_newtons),
     ):
         worst = greatest(cells, name)
         if worst is not None:

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from contextlib import suppress
 from operator import itemgetter
 
-from campaigns.answers import NOTHING_LASTS, kilonewton, known_rows, lasting, lines, numbers_of
+from campaigns.answers import NOTHING_LASTS, in_newtons, known_rows, lasting, lines, numbers_of
 from campaigns.explore.answer import snap_peaks, span
 from campaigns.explore.load import load, place_of
 from campaigns.sea.rows import MEAN, SNAPS
@@ -71,10 +71,10 @@ def _sea(rows: Rows, symbols: Mapping[str, str], scene) -> str:
 def _tension(rows: Rows, symbols: Mapping[str, str]) -> str:
     """The range of the mean, and where the standard deviation is least and largest."""
     ranked = sorted(rows, key=itemgetter(DEVIATION.name))
-    ends = [f"{kilonewton(row[DEVIATION.name])} at {place_of(row, symbols)}" for row in (ranked[0], ranked[-1])]
+    ends = [f"{in_newtons(row[DEVIATION.name])} at {place_of(row, symbols)}" for row in (ranked[0], ranked[-1])]
     means_N = numbers_of(rows, MEAN.name)
     deviations = " to ".join(dict.fromkeys(ends))
-    return f"mean {kilonewton(min(means_N))} to {kilonewton(max(means_N))}; standard deviation {deviations}."
+    return f"mean {in_newtons(min(means_N))} to {in_newtons(max(means_N))}; standard deviation {deviations}."
 
 
 def _snaps(rows: Rows, symbols: Mapping[str, str]) -> str:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from campaigns import sea
-from campaigns.answers import kilonewton
+from campaigns.answers import in_newtons
 from campaigns.basins.answer import sentences as of_basins
 from campaigns.orbits.answer import sentences as of_orbits
 from campaigns.regime_map.answer import _use as largest_usable
@@ -159,4 +159,4 @@ def test_a_sweep_in_a_sea_names_where_the_tension_varies_least_and_most():
     ],
 )
 def test_a_force_of_a_model_is_told_in_newtons(forces_N, words):
-    assert kilonewton(*forces_N) == words
+    assert in_newtons(*forces_N) == words
