@@ -35,7 +35,7 @@ def states(count: int) -> list[dict]:
 
 def exponent(state: dict, nodes: int, seeds: Sequence[int], periods: int, rtol: float | None = None) -> tuple:
     """Exponent and error in bits a peak period, over seas of these seeds."""
-    usual = {"buoy.submergence": "spherical-cap", "waves.above_still_water": "wheeler", "waves.jonswap": None}
+    usual = {"buoy.submergence": "spherical-cap", "waves.jonswap": None}
     usual |= {"waves.component_count": 64, "output.tangent_vectors": 1, "tether.nodes": nodes}
     if rtol is not None:
         usual["solver.rtol"] = rtol

@@ -108,7 +108,7 @@ def usual_sea(order: Order) -> dict:
     """What makes the shipped buoy float in a sea as steep as the paper's large wave, but for what the order says."""
     if order.name != STUDY.scene:
         return {}
-    usual = {"buoy.submergence": "spherical-cap", "waves.above_still_water": "wheeler"}
+    usual = {"buoy.submergence": "spherical-cap"}
     keys = *order.changes, *names(order.options.grid.columns)
     if not any(key.startswith(HEIGHTS) for key in keys):
         usual[HEIGHT] = 1.0  # other keys of the spectrum may be given without it

@@ -173,7 +173,7 @@ class Scene(Section):
         """
         plain = self.as_dict()
         waves = plain.get("waves", {})
-        if waves and waves["above_still_water"] == above_by_default(waves):
+        if waves and waves["above_still_water"] == above_by_default(waves, _whole_sphere(plain.get("buoy", {}))):
             del waves["above_still_water"]
         return tomli_w.dumps(plain)
 
@@ -183,13 +183,26 @@ class Scene(Section):
         return hashlib.sha256(canonical.encode()).hexdigest()
 
 
-def _floating(raw: dict[str, object]) -> dict[str, object]:
-    """The raw scene with the wetted cap for a buoy in an irregular sea, where buoy.submergence is not given."""
+def _whole_sphere(buoy: dict[str, object]) -> bool:
+    """Whether a buoy of these keys keeps its whole buoyancy above the water; also without a buoy."""
+    return buoy.get("submergence") in (None, "full")
+
+
+def _with_sea_defaults(raw: dict[str, object]) -> dict[str, object]:
+    """The raw scene with the defaults of an irregular sea: a buoy's wetted cap, and the motion above still water.
+
+    The paper's scheme knows no cap.
+    """
     sections = [raw.get(name) for name in ("waves", "buoy", "solver")]
     waves, buoy, solver = (section if isinstance(section, dict) else {} for section in sections)
-    if not irregular(waves) or not buoy or buoy.get("submergence") is not None or solver.get("scheme") == "paper-box":
+    if not irregular(waves):
         return raw
-    return raw | {"buoy": buoy | {"submergence": "spherical-cap"}}
+    if buoy and buoy.get("submergence") is None and solver.get("scheme") != "paper-box":
+        buoy = buoy | {"submergence": "spherical-cap"}
+        raw = raw | {"buoy": buoy}
+    if waves.get("above_still_water") is None:
+        raw = raw | {"waves": waves | {"above_still_water": above_by_default(waves, _whole_sphere(buoy))}}
+    return raw
 
 
 def build_scene(raw: dict[str, object], extra_faults: tuple[str, ...] = (), folder: Path = Path()) -> Scene:
@@ -202,7 +215,7 @@ def build_scene(raw: dict[str, object], extra_faults: tuple[str, ...] = (), fold
     if too_deep(raw):
         raise SceneError((*extra_faults, f"scene: {TOO_DEEP}"))
     raw, unfit = with_measured_sea(raw, folder)
-    raw = _floating(raw)
+    raw = _with_sea_defaults(raw)
     extra_faults = (*extra_faults, *unfit)
     try:
         scene = Scene.model_validate(raw)

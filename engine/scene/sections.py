@@ -257,12 +257,15 @@ def irregular(waves: dict[str, object]) -> bool:
     return any(waves.get(key) is not None for key in ("components", "jonswap", "significant_steepness"))
 
 
-def above_by_default(waves: dict[str, object]) -> str:
-    """waves.above_still_water where it is not given, by the other keys of `waves`.
+def above_by_default(waves: dict[str, object], whole_sphere: bool) -> str:
+    """waves.above_still_water where it is not given, by the other keys of `waves` and by the buoy.
 
-    Extrapolated or stretched, the short waves of an irregular sea can throw a sphere so far that its run fails.
+    whole_sphere: the sphere keeps its whole buoyancy above the water. The stretched short waves of an irregular sea
+    can throw such a sphere so far that its run fails; one with a cap floats in its crests, and these have to move.
     """
-    return "zero" if irregular(waves) else "extrapolate"
+    if not irregular(waves):
+        return "extrapolate"
+    return "zero" if whole_sphere else "wheeler"
 
 
 class Waves(Section):
@@ -307,8 +310,9 @@ class Waves(Section):
         "an irregular sea drawn from the JONSWAP spectrum, with its peak at period_s", None
     )
     above_still_water: Literal["extrapolate", "zero", "wheeler"] = described(
-        "motion of the water above still water; by default extrapolate, in an irregular sea zero",
-        default_factory=above_by_default,
+        "motion of the water above still water; by default extrapolate, in an irregular sea wheeler, or zero for a "
+        "whole sphere",
+        default_factory=lambda waves: above_by_default(waves, whole_sphere=True),
     )
 
     @property

@@ -24,7 +24,7 @@ KICKED = kick(w=4.0)
     [
         (4.5, {}, "steepest seas in nature"),
         (0.1, {"waves.period_s": 1.6}, "no diffraction"),
-        (1.0, {"water.depth_m": 20.0}, "'zero' stops the water"),
+        (1.0, {"water.depth_m": 20.0, "waves.above_still_water": "zero"}, "'zero' stops the water"),
         (
             1.5,
             {"water.depth_m": 21.0, "waves.above_still_water": "extrapolate", "waves.period_s": 4.0} | KICKED,

@@ -117,18 +117,23 @@ def test_what_only_the_replaced_sea_had_a_use_for_goes_with_it(name, inherited):
 
 
 @pytest.mark.parametrize("name", ["components", "jonswap.significant_height_m"])
-def test_no_waves_are_above_still_water_in_an_irregular_sea_unless_the_scene_says_so(name):
-    sea, key = {f"waves.{name}": HEIGHTS[name]}, "waves.above_still_water"
-    treated = [
-        load_scene("tethered_buoy", changes).waves.above_still_water for changes in ({}, sea, {**sea, key: "wheeler"})
-    ]
-    assert treated == ["extrapolate", "zero", "wheeler"]
-    saved = load_scene("tethered_buoy").to_toml()
-    assert scene_from_toml(saved, sea).waves.above_still_water == "zero"
-    assert (
-        scene_from_toml(load_scene("tethered_buoy", {key: "wheeler"}).to_toml(), sea).waves.above_still_water
-        == "wheeler"
-    )
+@pytest.mark.parametrize(("submergence", "treated"), [("full", "zero"), ("spherical-cap", "wheeler")])
+def test_the_water_of_a_sea_moves_up_to_a_sphere_that_floats_in_it_and_ends_below_a_whole_one(
+    name, submergence, treated
+):
+    sphere, sea, key = {"buoy.submergence": submergence}, {f"waves.{name}": HEIGHTS[name]}, "waves.above_still_water"
+    regular = load_scene("tethered_buoy", sphere)
+    drawn = load_scene("tethered_buoy", sphere | sea)
+    assert regular.waves.above_still_water == "extrapolate"
+    assert drawn.waves.above_still_water == treated
+    assert scene_from_toml(regular.to_toml(), sea) == scene_from_toml(drawn.to_toml()) == drawn
+    assert scene_from_toml(drawn.to_toml(), {"waves.steepness": 0.1}).waves.above_still_water == "extrapolate"
+    for chosen in ("extrapolate", "zero", "wheeler"):
+        assert load_scene("tethered_buoy", sphere | sea | {key: chosen}).waves.above_still_water == chosen
+        kept = load_scene("tethered_buoy", sphere | {key: chosen})
+        # a regular wave's own default is not written into its file
+        expected = treated if chosen == "extrapolate" else chosen
+        assert scene_from_toml(kept.to_toml(), sea).waves.above_still_water == expected
 
 
 def test_none_removes_and_a_scalar_creates_its_section():
