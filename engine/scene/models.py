@@ -191,7 +191,7 @@ def _whole_sphere(buoy: dict[str, object]) -> bool:
 def _with_sea_defaults(raw: dict[str, object]) -> dict[str, object]:
     """The raw scene with the defaults of an irregular sea: a buoy's wetted cap, and the motion above still water.
 
-    The paper's scheme knows no cap.
+    With the paper's scheme, which has no cap, the sphere stays whole.
     """
     sections = [raw.get(name) for name in ("waves", "buoy", "solver")]
     waves, buoy, solver = (section if isinstance(section, dict) else {} for section in sections)
