@@ -260,8 +260,9 @@ def irregular(waves: dict[str, object]) -> bool:
 def above_by_default(waves: dict[str, object], whole_sphere: bool) -> str:
     """waves.above_still_water where it is not given, by the other keys of `waves` and by the buoy.
 
-    whole_sphere: a buoy keeps its whole buoyancy above the water, or there is none. The stretched short waves of an irregular sea
-    can throw a whole sphere so far that its run fails. One with a cap floats in crests, where the water has to move.
+    whole_sphere: a buoy keeps its whole buoyancy above the water, or there is none. The stretched short waves of an
+    irregular sea can throw a whole sphere so far that its run fails. One with a cap floats in crests, where the water
+    has to move.
     """
     if not irregular(waves):
         return "extrapolate"
